@@ -1,0 +1,2 @@
+// locusd: stands in until the threads do.
+int main() { return 0; }

@@ -1,0 +1,104 @@
+// One record for every source of aid, whatever its kind: an anchor, a camera, a satellite, a beacon, an IMU.
+#pragma once
+
+#include "fusion/measurement.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace locus {
+
+/// Why an observation was used or not. Every value has one sentence in exclusion_sentence().
+enum class Exclusion : std::uint8_t {
+    none,
+    not_seen_yet,
+    unknown_source,
+    unknown_target,
+    unsupported_kind,
+    not_finite,
+    out_of_reach,
+    late,
+    stamp_in_future,
+    duplicate,
+    window_full,
+    waiting_for_start,
+    geometry_too_few,
+    geometry_degenerate,
+    geometry_mirror,
+    innovation_too_large,
+    clock_not_synchronised,
+    reported_blocked,
+    disabled,
+    count_
+};
+
+inline constexpr std::size_t exclusion_count = static_cast<std::size_t>(Exclusion::count_);
+
+struct ExclusionText {
+    std::string_view name;
+    std::string_view sentence;
+};
+
+inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
+    {"used", "used"},
+    {"not_seen_yet", "nothing heard from it yet"},
+    {"unknown_source", "its address is not among the anchors of the site"},
+    {"unknown_target", "its tag is not configured and there is no room for another"},
+    {"unsupported_kind", "this estimator has no use for this kind of measurement"},
+    {"not_finite", "the value is not a finite number"},
+    {"out_of_reach", "range longer than the anchor can see"},
+    {"late", "arrived after its time had left the window"},
+    {"stamp_in_future", "stamped later than the present"},
+    {"duplicate", "the same sample came twice"},
+    {"window_full", "more measurements in the window than it has room for"},
+    {"waiting_for_start", "kept until there is enough for a first position"},
+    {"geometry_too_few", "too few anchors heard for a position"},
+    {"geometry_degenerate", "anchors stand so that no position follows from them"},
+    {"geometry_mirror", "geometry cannot tell left from right"},
+    {"innovation_too_large", "disagrees with the other sources by more than chance allows"},
+    {"clock_not_synchronised", "clock of this anchor not synchronised yet"},
+    {"reported_blocked", "the device itself reports a blocked path"},
+    {"disabled", "switched off in the settings"},
+}};
+
+constexpr std::string_view exclusion_name(Exclusion reason) {
+    return exclusion_texts[static_cast<std::size_t>(reason)].name;
+}
+constexpr std::string_view exclusion_sentence(Exclusion reason) {
+    return exclusion_texts[static_cast<std::size_t>(reason)].sentence;
+}
+
+/// What an estimator answers to one observation.
+struct Verdict {
+    Exclusion reason = Exclusion::none;
+    float innovation = unknown_f;       ///< unit of the observation
+    float innovation_sigma = unknown_f; ///< predicted standard deviation of the innovation
+    float test_ratio = unknown_f;       ///< |innovation| over the gate; above 1 would be excluded
+    float weight = 1;                   ///< robust weight, 0..1
+};
+
+enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input };
+
+struct AidCounters {
+    std::uint64_t received = 0;
+    std::uint64_t used = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t late = 0;
+};
+
+struct AidStatus {
+    SourceKind kind = SourceKind::anchor;
+    Address source = no_address;
+    std::uint16_t input = 0; ///< input that last brought it
+    Address last_target = no_address;
+    Timestamp last_time{};      ///< stamp of the last observation
+    Timestamp last_used_time{}; ///< stamp of the last one used
+    double last_observation = 0;
+    Verdict last_verdict{Exclusion::not_seen_yet};
+    AidCounters counters;
+    float rate_hz = 0;
+    float delay_s = 0; ///< arrival less stamp, smoothed
+};
+
+} // namespace locus

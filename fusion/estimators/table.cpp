@@ -1,0 +1,20 @@
+// The estimators that a configuration can name.
+#include "fusion/estimators/estimator.h"
+
+#include <algorithm>
+#include <array>
+
+namespace locus {
+namespace {
+constexpr std::array<EstimatorRow, 0> rows{};
+}
+
+std::span<const EstimatorRow> estimator_table() { return rows; }
+
+const EstimatorRow* find_estimator(std::string_view name) {
+    const auto table = estimator_table();
+    const auto row = std::find_if(table.begin(), table.end(), [&](const EstimatorRow& r) { return r.name == name; });
+    return row == table.end() ? nullptr : &*row;
+}
+
+} // namespace locus

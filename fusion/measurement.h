@@ -1,0 +1,175 @@
+// Measurement: what a decoder says of one sample. Trivially copyable, at most 128 bytes, so it travels in rings.
+// Anything larger (an image, a histogram) stays in a preallocated pool and goes by index.
+// NaN in a sigma_* or *_dbm field means "the device does not say": the settings' figure is used instead.
+#pragma once
+
+#include "fusion/time.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+namespace locus {
+
+using Vec2 = std::array<double, 2>;
+using Vec3 = std::array<double, 3>;
+using Vec3f = std::array<float, 3>;
+
+inline constexpr float unknown_f = std::numeric_limits<float>::quiet_NaN();
+inline constexpr Vec3f unknown_vec3f{unknown_f, unknown_f, unknown_f};
+
+/// The number a device calls itself by: a TREK index, a 16-bit short address or an EUI-64.
+enum class Address : std::uint64_t {};
+inline constexpr Address no_address{std::numeric_limits<std::uint64_t>::max()};
+constexpr Address address(std::uint64_t number) { return Address{number}; }
+constexpr std::uint64_t number(Address address) { return static_cast<std::uint64_t>(address); }
+
+enum class LineOfSight : std::uint8_t { unknown, clear, blocked };
+
+/// Two-way range between an anchor and a tag.
+struct Range {
+    Address anchor = no_address;
+    Address tag = no_address;
+    double range_m = 0;
+    float sigma_m = unknown_f;
+    float rx_power_dbm = unknown_f;
+    float first_path_power_dbm = unknown_f;
+    LineOfSight line_of_sight = LineOfSight::unknown;
+};
+
+/// Time difference of arrival as a length: distance(tag, anchor_b) - distance(tag, anchor_a).
+struct RangeDifference {
+    Address anchor_a = no_address;
+    Address anchor_b = no_address;
+    Address tag = no_address;
+    double difference_m = 0;
+    float sigma_m = unknown_f;
+    LineOfSight line_of_sight = LineOfSight::unknown;
+};
+
+/// A tag's blink heard at an anchor, in that anchor's free-running 40-bit DW1000 clock.
+struct Arrival {
+    Address anchor = no_address;
+    Address tag = no_address;
+    std::uint64_t rx_anchor_ticks_in_anchor = 0;
+    std::uint32_t sequence = 0;
+    float rx_power_dbm = unknown_f;
+    float first_path_power_dbm = unknown_f;
+};
+
+/// A sync packet from one anchor heard at another, each stamp in its own clock.
+struct ClockSync {
+    Address transmitter = no_address;
+    Address receiver = no_address;
+    std::uint64_t tx_transmitter_ticks_in_transmitter = 0;
+    std::uint64_t rx_receiver_ticks_in_receiver = 0;
+    std::uint32_t sequence = 0;
+};
+
+/// Range between two tags.
+struct PeerRange {
+    Address tag_a = no_address;
+    Address tag_b = no_address;
+    double range_m = 0;
+    float sigma_m = unknown_f;
+};
+
+struct ImuSample {
+    Address tag = no_address;
+    Vec3 specific_force_mps2{};
+    Vec3 angular_rate_radps{};
+    Vec3f magnetic_field_ut = unknown_vec3f;
+};
+
+/// Where a camera sees a person touch the floor.
+struct FootPoint {
+    Address camera = no_address;
+    std::uint32_t track = 0;
+    Vec2 position_site_m{};
+    std::array<float, 3> covariance_m2{}; ///< xx, xy, yy
+    float confidence = unknown_f;
+    std::uint32_t appearance_slot = 0; ///< index into the appearance pool
+};
+
+/// Pose from a visual odometry or SLAM, in its own frame and scale; `segment` changes when tracking restarts.
+struct VisualOdometry {
+    Address camera = no_address;
+    std::uint32_t segment = 0;
+    Vec3 position_odometry{};
+    std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
+};
+
+struct GnssFix {
+    Address tag = no_address;
+    double latitude_deg = 0;
+    double longitude_deg = 0;
+    double height_ellipsoid_m = 0;
+    Vec3f velocity_enu_mps = unknown_vec3f;
+    float sigma_horizontal_m = unknown_f;
+    float sigma_vertical_m = unknown_f;
+    float sigma_velocity_mps = unknown_f;
+    std::uint8_t fix_type = 0;
+    std::uint8_t satellites = 0;
+};
+
+/// One signal of one satellite. Receiver time is GPS week and seconds.
+struct GnssRaw {
+    Address tag = no_address;
+    double receiver_time_s_in_gps_week = 0;
+    double pseudorange_m = 0;
+    double carrier_cycles = 0;
+    double doppler_hz = 0;
+    float sigma_pseudorange_m = unknown_f;
+    float carrier_to_noise_dbhz = unknown_f;
+    float lock_s = 0;
+    std::uint16_t gps_week = 0;
+    std::uint8_t constellation = 0;
+    std::uint8_t satellite = 0;
+    std::uint8_t signal = 0;
+    std::uint8_t glonass_slot = 0;
+};
+
+struct WheelSpeed {
+    Address tag = no_address;
+    double speed_mps = 0;
+    float sigma_mps = unknown_f;
+    float yaw_rate_radps = unknown_f;
+    float steering_rad = unknown_f;
+};
+
+struct Pressure {
+    Address tag = no_address;
+    double pressure_pa = 0;
+    float temperature_c = unknown_f;
+};
+
+struct SignalStrength {
+    Address transmitter = no_address;
+    Address receiver = no_address;
+    float rssi_dbm = 0;
+    float tx_power_dbm = unknown_f; ///< power at 1 m that the beacon announces
+    std::uint8_t channel = 0;
+};
+
+using Observation = std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint,
+                                 VisualOdometry, GnssFix, GnssRaw, WheelSpeed, Pressure, SignalStrength>;
+
+/// Class names on the socket and in recordings, in the variant's order.
+inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
+    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC", "PEER_RANGE",
+    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",   "GNSS_RAW",
+    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH"};
+
+struct Measurement {
+    Timestamp time;             ///< when the sample was taken
+    std::uint32_t sequence = 0; ///< per input, counts what the decoder gave; orders samples of one time
+    std::uint16_t input = 0;    ///< index of the input in the settings
+    Observation observation;
+};
+
+static_assert(std::is_trivially_copyable_v<Measurement> && sizeof(Measurement) <= 128);
+
+} // namespace locus

@@ -1,0 +1,100 @@
+// The option table: one row per setting. The loader, `locus check`, `locus config --print` and the reference page
+// are all made from it. A module keeps a plain struct with its defaults and one table beside it:
+//
+//   struct GateSettings { double false_alarm = 1e-3; };
+//   inline constexpr std::array gate_options{
+//       option<&GateSettings::false_alarm>("false_alarm", "", 1e-9, 0.1, "Chance that a good range is refused.")};
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace locus {
+
+using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
+
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+struct OptionRow {
+    std::string_view name;
+    std::string_view unit;
+    double minimum;
+    double maximum;
+    std::string_view about;
+    std::span<const std::string_view> choices; ///< for strings; empty: any text
+    bool required;
+    OptionValue (*get)(const void* settings);
+    /// `value` holds the alternative that get() returns.
+    void (*set)(void* settings, const OptionValue& value);
+};
+
+namespace detail {
+template <class T>
+struct MemberOf;
+template <class S, class T>
+struct MemberOf<T S::*> {
+    using Struct = S;
+    using Type = T;
+};
+template <class T>
+using Stored =
+    std::conditional_t<std::is_same_v<T, bool>, bool,
+                       std::conditional_t<std::is_integral_v<T>, std::int64_t,
+                                          std::conditional_t<std::is_floating_point_v<T>, double, std::string>>>;
+} // namespace detail
+
+/// A row bound to a struct member of type bool, an integer, double or std::string.
+template <auto Member>
+constexpr OptionRow option(std::string_view name, std::string_view unit, double minimum, double maximum,
+                           std::string_view about, std::span<const std::string_view> choices = {},
+                           bool required = false) {
+    using Traits = detail::MemberOf<decltype(Member)>;
+    using Struct = typename Traits::Struct;
+    using Type = typename Traits::Type;
+    using Stored = detail::Stored<Type>;
+    return {name,
+            unit,
+            minimum,
+            maximum,
+            about,
+            choices,
+            required,
+            [](const void* settings) -> OptionValue {
+                return static_cast<Stored>(static_cast<const Struct*>(settings)->*Member);
+            },
+            [](void* settings, const OptionValue& value) {
+                static_cast<Struct*>(settings)->*Member = static_cast<Type>(std::get<Stored>(value));
+            }};
+}
+
+/// A row without limits, for texts and booleans.
+template <auto Member>
+constexpr OptionRow option(std::string_view name, std::string_view about,
+                           std::span<const std::string_view> choices = {}) {
+    return option<Member>(name, "", -no_limit, no_limit, about, choices);
+}
+
+template <auto Member>
+constexpr OptionRow required_option(std::string_view name, std::string_view about) {
+    return option<Member>(name, "", -no_limit, no_limit, about, {}, true);
+}
+
+using Options = std::span<const OptionRow>;
+
+/// A settings struct whose type only its module knows; `make` gives one that holds the defaults.
+struct OptionTable {
+    Options rows;
+    std::shared_ptr<void> (*make)();
+};
+
+template <class Settings>
+constexpr OptionTable option_table(Options rows) {
+    return {rows, []() -> std::shared_ptr<void> { return std::make_shared<Settings>(); }};
+}
+
+} // namespace locus

@@ -1,0 +1,1 @@
+// Gives the precompiled header of all tests a translation unit to hang on.

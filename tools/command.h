@@ -1,0 +1,14 @@
+// The subcommands of `locus`: one file each, one row in main.cpp. A command sets exit_code from its callback.
+// Exit codes: 0 yes, 1 no (a check failed, no fix in time), 2 wrong use or unreadable file, 3 the daemon cannot be
+// reached.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace locus {
+
+enum ExitCode : int { exit_yes = 0, exit_no = 1, exit_usage = 2, exit_no_daemon = 3 };
+
+using AddCommand = void (*)(CLI::App& root, int& exit_code);
+
+} // namespace locus
