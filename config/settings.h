@@ -22,7 +22,9 @@ struct InputSettings {
     bool enabled = true;
 };
 
+/// The rows that stand in front of the transport's and the decoder's own.
 inline constexpr std::array input_options{
+    required_option<&InputSettings::name>("name", "Name that people see and recordings carry: no blanks."),
     option<&InputSettings::delay_s>("delay_s", "s", 0, 10, "Time from the sample to the wire, taken off every stamp."),
     option<&InputSettings::enabled>("enabled", "Whether the input is opened at all."),
 };

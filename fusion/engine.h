@@ -43,6 +43,12 @@ struct TargetSettings {
     std::string estimator; ///< empty: FusionSettings::estimator
 };
 
+inline constexpr std::array target_options{
+    required_option<&TargetSettings::name>("name", "Name that people see."),
+    required_option<&TargetSettings::address>("address", "The number its tag calls itself by: 3, 0x1234, DE:CA:..."),
+    option<&TargetSettings::estimator>("estimator", "Estimator for this target; left out: fusion.estimator."),
+};
+
 /// Settings of one estimator as its option table made them.
 struct EstimatorSettings {
     const EstimatorRow* row = nullptr;

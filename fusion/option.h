@@ -6,17 +6,24 @@
 //       option<&GateSettings::false_alarm>("false_alarm", "", 1e-9, 0.1, "Chance that a good range is refused.")};
 #pragma once
 
+#include "fusion/measurement.h"
+
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace locus {
 
-using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
+/// A double or a Vec3 component that is NaN is "not set" (only possible as a default, never typed in).
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, Address, Vec3>;
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -42,13 +49,35 @@ struct MemberOf<T S::*> {
     using Type = T;
 };
 template <class T>
-using Stored =
-    std::conditional_t<std::is_same_v<T, bool>, bool,
-                       std::conditional_t<std::is_integral_v<T>, std::int64_t,
-                                          std::conditional_t<std::is_floating_point_v<T>, double, std::string>>>;
+struct StoredAs {
+    using Type = T; // bool, std::string, Address, Vec3
+};
+template <std::integral T>
+struct StoredAs<T> {
+    using Type = std::int64_t;
+};
+template <>
+struct StoredAs<bool> {
+    using Type = bool;
+};
+template <std::floating_point T>
+struct StoredAs<T> {
+    using Type = double;
+};
+
+/// The tighter of a row's limits and what its member can hold: no row can make a cast that wraps.
+template <class T>
+constexpr std::pair<double, double> limits_within(double minimum, double maximum) {
+    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+        using Limits = std::numeric_limits<std::conditional_t<(sizeof(T) < 8), T, std::int32_t>>;
+        return {std::max(minimum, double{Limits::min()}), std::min(maximum, double{Limits::max()})};
+    }
+    return {minimum, maximum};
+}
 } // namespace detail
 
-/// A row bound to a struct member of type bool, an integer, double or std::string.
+/// A row bound to a struct member of type bool, an integer, double, std::string, Address or Vec3 (limits: of each
+/// component).
 template <auto Member>
 constexpr OptionRow option(std::string_view name, std::string_view unit, double minimum, double maximum,
                            std::string_view about, std::span<const std::string_view> choices = {},
@@ -56,11 +85,12 @@ constexpr OptionRow option(std::string_view name, std::string_view unit, double 
     using Traits = detail::MemberOf<decltype(Member)>;
     using Struct = typename Traits::Struct;
     using Type = typename Traits::Type;
-    using Stored = detail::Stored<Type>;
+    using Stored = typename detail::StoredAs<Type>::Type;
+    constexpr auto within = detail::limits_within<Type>;
     return {name,
             unit,
-            minimum,
-            maximum,
+            within(minimum, maximum).first,
+            within(minimum, maximum).second,
             about,
             choices,
             required,
