@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,18 +35,25 @@ class Transport {
     virtual ReadStatus read(PacketSink& sink, Duration timeout) = 0;
     /// For devices that must be asked. False when it did not go out whole.
     virtual bool write(std::span<const std::uint8_t> /*bytes*/) { return false; }
-    /// Frames that the kernel dropped, as it says.
+    /// Frames that the kernel dropped, as it says; counts on over re-opening.
     virtual std::uint64_t kernel_dropped() const { return 0; }
+    /// Error frames of a bus; counts on over re-opening.
+    virtual std::uint64_t wire_errors() const { return 0; }
+    /// A trouble that does not stop it, in a sentence ("can0 is error passive ..."); empty when all is well.
+    virtual std::string_view trouble() const { return {}; }
     virtual std::string_view last_error() const = 0;
 };
 
 struct TransportRow {
     std::string_view name;
     std::string_view about;
-    Wire wire;
-    bool needs_network; ///< opens an IP socket: the unit's drop-in must allow AF_INET
+    std::optional<Wire> wire; ///< empty: either kind (a recording holds both)
+    bool needs_network;       ///< opens an IP socket: the unit's drop-in must allow AF_INET
     OptionTable options;
     std::unique_ptr<Transport> (*make)(const void* settings);
+
+    /// Whether a decoder of that wire can be fed by it.
+    constexpr bool carries(Wire wanted) const { return !wire || *wire == wanted; }
 };
 
 std::span<const TransportRow> transport_table();

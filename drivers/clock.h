@@ -1,0 +1,18 @@
+// The one place below the daemon that reads the clock. fusion/ must not include it: time comes in with measurements.
+#pragma once
+
+#include "fusion/time.h"
+
+#include <ctime>
+
+namespace locus {
+
+inline Timestamp read_clock(clockid_t clock) {
+    timespec now{};
+    ::clock_gettime(clock, &now);
+    return timestamp_from_ns(std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec);
+}
+
+inline Timestamp monotonic_now() { return read_clock(CLOCK_MONOTONIC); }
+
+} // namespace locus
