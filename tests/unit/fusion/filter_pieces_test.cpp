@@ -1,0 +1,115 @@
+// The small pieces every filter is made of: weights, gate, motion.
+#include "fusion/filter/gate.h"
+#include "fusion/filter/motion.h"
+#include "fusion/filter/robust_weight.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+namespace locus::filter {
+namespace {
+
+TEST(RobustWeight, CauchyIsOneAtZeroHalfAtItsScaleAndDiesAsTheSquare) {
+    EXPECT_DOUBLE_EQ(cauchy_weight(0, 2), 1);
+    EXPECT_DOUBLE_EQ(cauchy_weight(-2, 2), 0.5);
+    EXPECT_NEAR(cauchy_weight(2000, 2), 1e-6, 1e-11);
+}
+
+TEST(RobustWeight, HuberKeepsThePullConstantBeyondItsScale) {
+    EXPECT_DOUBLE_EQ(huber_weight(-1.4, 1.5), 1);
+    EXPECT_DOUBLE_EQ(huber_weight(3, 1.5) * 3, huber_weight(300, 1.5) * 300);
+}
+
+TEST(RobustWeight, WeakenedVarianceScalesTheWholeInnovation) {
+    EXPECT_DOUBLE_EQ(weakened_variance(0.5, 0.3, 1), 0.2);
+    EXPECT_DOUBLE_EQ(weakened_variance(0.5, 0.3, 0.25) + 0.3, 2.0);
+}
+
+TEST(Gate, LimitIsTheNormalQuantile) {
+    EXPECT_NEAR(gate_in_sigma(0.05), 1.959964, 1e-6);
+    EXPECT_NEAR(gate_in_sigma(1e-3), 3.290527, 1e-6);
+    EXPECT_NEAR(gate_in_sigma(1e-9), 6.109410, 1e-5);
+}
+
+TEST(Gate, RefusesWhatIsFarOutAndReopensAfterItsPatience) {
+    Gate gate;
+    EXPECT_TRUE(gate.passes(-3.2, 3.3, 4));
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(gate.passes(-9, 3.3, 4)) << i;
+    EXPECT_TRUE(gate.passes(-9, 3.3, 4)) << "shut for ever";
+    EXPECT_FALSE(gate.passes(-9, 3.3, 4)) << "one only, then it counts anew";
+}
+
+TEST(Gate, AGoodOneMakesItForget) {
+    Gate gate;
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(gate.passes(5, 3, 3));
+    EXPECT_EQ(gate.refused_in_a_row(), 3u);
+    EXPECT_TRUE(gate.passes(0, 3, 3));
+    EXPECT_EQ(gate.refused_in_a_row(), 0u);
+}
+
+TEST(Gate, NaNNeverPassesAsGood) {
+    Gate gate;
+    EXPECT_FALSE(gate.passes(std::nan(""), 3, 10));
+}
+
+double seconds(int least_exponent, int most_exponent) {
+    const int exponent = *rc::gen::inRange(least_exponent, most_exponent);
+    return *rc::gen::inRange(100, 1000) / 100.0 * std::pow(10.0, exponent);
+}
+
+// Two steps must be one: the transition composes and the noise of the first is carried through the second.
+TEST(AxisStep, TwoStepsAreOneStep) {
+    rc::check([] {
+        const MotionModel model{1.7, seconds(-1, 3)};
+        const double first_s = seconds(-4, -1), second_s = seconds(-4, -1);
+        const AxisStep a = axis_step(model, first_s), b = axis_step(model, second_s);
+        const AxisStep both = axis_step(model, first_s + second_s);
+        const Eigen::Matrix3d noise = b.transition * a.noise * b.transition.transpose() + b.noise;
+        RC_ASSERT((b.transition * a.transition - both.transition).norm() < 1e-9);
+        // The quadrature is exact to the 7th power of step over time; both steps are under twenty times the time.
+        RC_ASSERT((noise - both.noise).norm() < 1e-6 * both.noise.norm() ||
+                  first_s + second_s > model.acceleration_time_s);
+    });
+}
+
+TEST(AxisStep, NoiseIsPositiveSemiDefiniteForAnyStep) {
+    rc::check([] {
+        const AxisStep step = axis_step({2, seconds(-2, 3)}, seconds(-6, 3));
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(step.noise);
+        RC_ASSERT(step.noise == step.noise.transpose());
+        RC_ASSERT(eigen.eigenvalues().minCoeff() >= -1e-12 * eigen.eigenvalues().maxCoeff());
+    });
+}
+
+TEST(AxisStep, LongDecayIsConstantAccelerationAndWhiteJerk) {
+    const double dt = 0.1, time = 1e4;
+    const AxisStep step = axis_step({2, time}, dt);
+    EXPECT_NEAR(step.transition(0, 2), dt * dt / 2, 1e-7);
+    EXPECT_NEAR(step.transition(1, 2), dt, 1e-6);
+    const double jerk_density = 2 * 2.0 * 2.0 / time;
+    EXPECT_NEAR(step.noise(0, 0), jerk_density * std::pow(dt, 5) / 20, 1e-4 * jerk_density * std::pow(dt, 5));
+    EXPECT_NEAR(step.noise(2, 2), jerk_density * dt, 1e-4 * jerk_density * dt);
+}
+
+TEST(AxisStep, NoTimeChangesNothing) {
+    const AxisStep step = axis_step({2, 1}, 0);
+    EXPECT_EQ(step.transition, Eigen::Matrix3d::Identity());
+    EXPECT_EQ(step.noise, Eigen::Matrix3d::Zero());
+}
+
+TEST(WanderStep, SettlesAtItsSigmaWhateverTheStep) {
+    for (const double dt : {0.001, 0.1, 10.0}) {
+        double variance = 0;
+        for (double t = 0; t < 20; t += dt) {
+            const WanderStep step = wander_step(0.2, 0.5, dt);
+            variance = step.keep * step.keep * variance + step.variance;
+        }
+        EXPECT_NEAR(variance, 0.04, 1e-9) << dt;
+    }
+}
+
+} // namespace
+} // namespace locus::filter
