@@ -1,15 +1,15 @@
 // The transports that a configuration can name.
-#include "drivers/transport/transport.h"
+#include "drivers/transport/rows.h"
 
 #include <algorithm>
 #include <array>
 
 namespace locus {
-namespace {
-constexpr std::array<TransportRow, 0> rows{};
-}
 
-std::span<const TransportRow> transport_table() { return rows; }
+std::span<const TransportRow> transport_table() {
+    static const std::array rows{serial_row(), pty_row(), fifo_row(), tcp_row()};
+    return rows;
+}
 
 const TransportRow* find_transport(std::string_view name) {
     const auto table = transport_table();

@@ -1,0 +1,93 @@
+#include "drivers/transport/stream.h"
+
+#include "drivers/clock.h"
+
+#include <fcntl.h>
+#include <poll.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace locus {
+namespace {
+
+constexpr int write_timeout_ms = 200;
+
+int to_ms(Duration duration) {
+    return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(duration).count());
+}
+
+std::string open_sentence(const std::string& path, std::string_view kind, int reason) {
+    const std::string device = "'" + path + "'";
+    const std::string wanted{kind};
+    switch (reason) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+        return device + " is not there: is the " + wanted + " plugged in or its program running?";
+    case EACCES:
+    case EPERM:
+        return "no permission to read and write " + device + ": see `ls -l` and the groups of this user";
+    case EBUSY:
+        return device + " is in use by another program: `fuser -v " + path + "` says which";
+    default:
+        return device + " cannot be opened: " + std::strerror(reason);
+    }
+}
+
+} // namespace
+
+ReadStatus StreamTransport::read(PacketSink& sink, Duration timeout) {
+    pollfd waiting{fd_.get(), POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, to_ms(timeout));
+    const Timestamp woken = monotonic_now();
+    if (ready <= 0) return ready == 0 || errno == EINTR ? ReadStatus::ok : lost(std::strerror(errno));
+    if (waiting.revents & POLLIN) return take(sink, woken);
+    return lost("the other end hung up or it was unplugged");
+}
+
+ReadStatus StreamTransport::take(PacketSink& sink, Timestamp woken) {
+    std::array<std::uint8_t, max_chunk> chunk; // not cleared: read() says how much of it is filled
+    const ssize_t size = ::read(fd_.get(), chunk.data(), chunk.size());
+    if (size == 0) return lost("the other end closed it or it was unplugged");
+    if (size < 0) return errno == EAGAIN || errno == EINTR ? ReadStatus::ok : lost(std::strerror(errno));
+    Packet packet;
+    packet.time = woken;
+    packet.byte_time = byte_time_;
+    packet.data = std::span{chunk}.first(static_cast<std::size_t>(size));
+    sink.packet(packet);
+    return ReadStatus::ok;
+}
+
+bool StreamTransport::write(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t size = ::write(fd_.get(), bytes.data(), bytes.size());
+        if (size > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(size));
+            continue;
+        }
+        pollfd waiting{fd_.get(), POLLOUT, 0};
+        if (size < 0 && errno != EAGAIN && errno != EINTR) return false;
+        if (::poll(&waiting, 1, write_timeout_ms) <= 0) return false;
+    }
+    return true;
+}
+
+bool StreamTransport::refuse(std::string sentence) {
+    error_ = std::move(sentence);
+    return false;
+}
+
+ReadStatus StreamTransport::lost(std::string_view how) {
+    error_ = "'" + device_ + "' is gone: " + std::string{how};
+    return ReadStatus::lost;
+}
+
+UniqueFd open_device(const std::string& path, std::string_view kind, std::string& error) {
+    UniqueFd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
+    if (!fd) error = open_sentence(path, kind, errno);
+    return fd;
+}
+
+} // namespace locus
