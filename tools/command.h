@@ -11,4 +11,12 @@ enum ExitCode : int { exit_yes = 0, exit_no = 1, exit_usage = 2, exit_no_daemon 
 
 using AddCommand = void (*)(CLI::App& root, int& exit_code);
 
+// Of the running daemon, through its socket.
+void add_status(CLI::App& root, int& exit_code);
+void add_sources(CLI::App& root, int& exit_code);
+void add_targets(CLI::App& root, int& exit_code);
+void add_watch(CLI::App& root, int& exit_code);
+void add_wait(CLI::App& root, int& exit_code);
+void add_reload(CLI::App& root, int& exit_code);
+
 } // namespace locus

@@ -4,12 +4,21 @@
 #include <array>
 
 namespace {
-constexpr std::array<locus::AddCommand, 0> commands{};
+constexpr auto commands = std::to_array<locus::AddCommand>({
+    locus::add_status,
+    locus::add_sources,
+    locus::add_targets,
+    locus::add_watch,
+    locus::add_wait,
+    locus::add_reload,
+});
 }
 
 int main(int argc, char** argv) {
     CLI::App app{"locus looks after the positioning daemon locusd"};
     app.require_subcommand(1);
+    app.footer("`locus COMMAND --help` shows what a command takes, with an example.\n"
+               "Exit codes: 0 yes, 1 no, 2 wrong use or unreadable file, 3 the daemon cannot be reached.");
     int exit_code = locus::exit_yes;
     for (const auto add : commands) add(app, exit_code);
     try {

@@ -1,0 +1,36 @@
+#include "tools/client/watching.h"
+
+#include "tools/client/fields.h"
+
+#include <fmt/format.h>
+
+namespace locus::tools {
+
+std::string watch_command(const WatchRequest& request) {
+    nlohmann::json options{{"enable", true}};
+    if (!request.targets.empty()) options["targets"] = request.targets;
+    if (request.rate_hz) options["rate_hz"] = *request.rate_hz;
+    std::string json = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    // A ';' ends the command wherever it stands, and in JSON it can only stand in a name.
+    for (std::size_t at = 0; (at = json.find(';', at)) != std::string::npos;) json.replace(at, 1, "\\u003b");
+    return "?WATCH=" + json + ";\n";
+}
+
+void start_watching(Client& client, const WatchRequest& request) {
+    const Message answer = client.ask(watch_command(request), "WATCH");
+    if (answer.class_name == "ERROR")
+        throw DaemonError(fmt::format("locusd refuses to be watched: {}", text(answer.fields, "message")));
+}
+
+double monotonic_now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Deadline deadline_in(double seconds) {
+    constexpr double a_century_s = 3.2e9;
+    if (!(seconds < a_century_s)) return Deadline::max();
+    return std::chrono::steady_clock::now() +
+           std::chrono::duration_cast<Deadline::duration>(std::chrono::duration<double>(seconds));
+}
+
+} // namespace locus::tools

@@ -1,0 +1,125 @@
+// locus sources: every anchor and input, how it does, and in a sentence why it is not used.
+#include "tools/client/command.h"
+#include "tools/client/fields.h"
+#include "tools/show/table.h"
+#include "tools/show/terminal.h"
+#include "tools/show/words.h"
+
+#include <fmt/format.h>
+
+namespace locus {
+
+namespace {
+
+using namespace locus::tools;
+using nlohmann::json;
+
+std::string name_or_address(const json& item) {
+    const std::string name = text(item, "name");
+    return name.empty() ? text(item, "address") : name;
+}
+
+std::string verdict(const json& source) {
+    if (flag(source, "used")) return "used";
+    const std::string sentence = text(source, "sentence");
+    return sentence.empty() ? text(source, "reason") : sentence;
+}
+
+std::string used_share(const json& counters) {
+    const auto received = number(counters, "received"), used = number(counters, "used");
+    if (!received || !used || *received <= 0) return "-";
+    return figure(100 * *used / *received, 0);
+}
+
+Table source_table(const json& sources) {
+    Table table({{"source"},
+                 {"kind"},
+                 {"Hz", Align::right},
+                 {"age", Align::right},
+                 {"observed", Align::right},
+                 {"innovation", Align::right},
+                 {"sigma", Align::right},
+                 {"ratio", Align::right},
+                 {"used %", Align::right},
+                 {"state"}});
+    for (const auto& source : sources)
+        table.add({name_or_address(source), text(source, "kind"), figure(number(source, "rate_hz"), 1),
+                   duration(number(source, "age_s")), figure(number(source, "observation"), 2),
+                   figure(number(source, "innovation"), 2), figure(number(source, "innovation_sigma"), 2),
+                   figure(number(source, "test_ratio"), 2), used_share(object(source, "counters")), verdict(source)});
+    return table;
+}
+
+double refused(const json& input) {
+    double sum = 0;
+    for (const auto& [reason, count] : object(input, "refused").items())
+        if (count.is_number()) sum += count.get<double>();
+    return sum;
+}
+
+double dropped(const json& input) {
+    return number(input, "ring_dropped").value_or(0) + number(input, "kernel_dropped").value_or(0);
+}
+
+Table input_table(const json& inputs) {
+    Table table({{"input"},
+                 {"transport"},
+                 {"decoder"},
+                 {"state"},
+                 {"age", Align::right},
+                 {"packets", Align::right},
+                 {"frames", Align::right},
+                 {"measurements", Align::right},
+                 {"refused", Align::right},
+                 {"dropped", Align::right},
+                 {"reconnects", Align::right}});
+    for (const auto& input : inputs)
+        table.add({text(input, "name"), text(input, "transport"), text(input, "decoder"), text(input, "state"),
+                   duration(number(input, "age_s")), figure(number(input, "packets"), 0),
+                   figure(number(input, "frames"), 0), figure(number(input, "measurements"), 0),
+                   figure(refused(input), 0), figure(dropped(input), 0), figure(number(input, "reconnects"), 0)});
+    return table;
+}
+
+// What does not fit a column: the last error, and which frames were refused for what.
+void print_remarks(const json& inputs) {
+    for (const auto& input : inputs) {
+        const std::string error = text(input, "error");
+        if (!error.empty()) fmt::print("  {}: {}\n", text(input, "name"), toned(error, Tone::bad));
+        for (const auto& [reason, count] : object(input, "refused").items())
+            if (count.is_number() && count.get<double>() > 0)
+                fmt::print("  {}: {} refused as {}\n", text(input, "name"), count.dump(), printable(reason));
+    }
+}
+
+int sources(Client& client, bool as_json) {
+    const Message answer = client.ask("?SOURCES;\n", "SOURCES");
+    if (as_json) {
+        fmt::print("{}\n", answer.line);
+        return exit_yes;
+    }
+    const Table anchors = source_table(list(answer.fields, "sources"));
+    if (anchors.empty()) fmt::print("no source yet: the site names no anchor\n");
+    if (!anchors.empty()) print_lines(anchors.lines());
+    fmt::print("\n");
+    print_lines(input_table(list(answer.fields, "inputs")).lines());
+    print_remarks(list(answer.fields, "inputs"));
+    return exit_yes;
+}
+
+} // namespace
+
+void add_sources(CLI::App& root, int& exit_code) {
+    add_client_command(
+        root, exit_code,
+        {"sources", "Lists anchors and inputs: how each does, and why it is not used",
+         "Print the daemon's SOURCES line as it is",
+         "Example:\n  locus sources\n"
+         "  locus sources --json | jq -r '.sources[] | select(.used | not) | .name + \": \" + .sentence'\n"
+         "\"innovation\" is measured less expected, \"sigma\" the standard deviation that was foreseen for it, "
+         "\"ratio\"\n"
+         "the innovation over the largest that is accepted: above 1 the measurement was refused."},
+        sources);
+}
+
+} // namespace locus
