@@ -78,13 +78,25 @@ struct Verdict {
     float weight = 1;                   ///< robust weight, 0..1
 };
 
-enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input };
+enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag };
 
+/// received = used + refused + late + those still waiting for their tick.
 struct AidCounters {
     std::uint64_t received = 0;
     std::uint64_t used = 0;
-    std::uint64_t refused = 0;
+    std::uint64_t refused = 0; ///< for whatever reason but `late`
     std::uint64_t late = 0;
+};
+
+/// received = used + late + refused + those still waiting for their tick. A measurement between two tags counts once
+/// for each. Exact also when a roll-back changes a verdict: the new one replaces the old.
+struct EngineCounters {
+    std::uint64_t received = 0;
+    std::uint64_t used = 0;
+    std::uint64_t late = 0;
+    std::uint64_t refused = 0;                              ///< for whatever reason but `late`
+    std::uint64_t rolled_back = 0;                          ///< times that a target went back to a snapshot
+    std::array<std::uint64_t, exclusion_count> by_reason{}; ///< index: Exclusion; by_reason[none] == used
 };
 
 struct AidStatus {
@@ -97,7 +109,7 @@ struct AidStatus {
     double last_observation = 0;
     Verdict last_verdict{Exclusion::not_seen_yet};
     AidCounters counters;
-    float rate_hz = 0;
+    float rate_hz = 0; ///< of what was heard, used or not; smoothed
     float delay_s = 0; ///< arrival less stamp, smoothed
 };
 

@@ -21,17 +21,21 @@ struct FusionSettings {
     double window_s = 0.2;
     double lost_after_s = 2;
     int max_targets = 64;
+    double max_measurement_rate_hz = 1000;
     bool accept_unknown_targets = true;
     std::string estimator = "range_ekf";
 };
 
 inline constexpr std::array fusion_options{
     option<&FusionSettings::rate_hz>("rate_hz", "Hz", 1, 1000, "Ticks, and poses of each target, per second."),
-    option<&FusionSettings::window_s>("window_s", "s", 0, 5,
+    option<&FusionSettings::window_s>("window_s", "s", 0.01, 5,
                                       "How late a measurement may come and still count as if it had come in order."),
     option<&FusionSettings::lost_after_s>("lost_after_s", "s", 0.05, 3600,
                                           "A target unheard for this long has no pose until it is heard again."),
     option<&FusionSettings::max_targets>("max_targets", "", 1, 4096, "Targets that memory is set aside for."),
+    option<&FusionSettings::max_measurement_rate_hz>(
+        "max_measurement_rate_hz", "Hz", 10, 10000,
+        "Measurements of one target per second that the window has room for (about 200 bytes each)."),
     option<&FusionSettings::accept_unknown_targets>(
         "accept_unknown_targets", "Whether a tag that is not listed under targets is followed as well."),
     option<&FusionSettings::estimator>("estimator", "Estimator of targets that name none."),
@@ -62,13 +66,6 @@ struct EngineSettings {
     std::vector<EstimatorSettings> estimators; ///< only those whose settings differ from the defaults need be here
 };
 
-struct EngineCounters {
-    std::uint64_t received = 0;
-    std::uint64_t late = 0;
-    std::uint64_t refused = 0;
-    std::uint64_t rolled_back = 0;
-};
-
 class Engine {
   public:
     /// Throws std::invalid_argument with a sentence when the settings cannot work (an estimator of unknown name).
@@ -79,7 +76,8 @@ class Engine {
     void submit(const Measurement& measurement, Timestamp arrival) noexcept;
 
     /// Runs every target up to `tick` and returns a pose for each known target, valid until the next call. Targets
-    /// without a position are there too; estimate.missing says why. Tick times strictly increase.
+    /// without a position are there too; estimate.missing says why. Tick times strictly increase: a tick
+    /// that does not lie after the last one gives nothing.
     std::span<const Pose> step(Timestamp tick) noexcept;
 
     std::span<const AidStatus> sources() const noexcept;
