@@ -1,0 +1,43 @@
+// What the fusion thread hands to the publisher: three rings and nothing else.
+#pragma once
+
+#include "fusion/aid_status.h"
+#include "fusion/engine.h"
+#include "fusion/pose.h"
+#include "fusion/ring.h"
+
+namespace locus {
+
+/// Counts the engines of this process; what an old engine gave is told from what the new one gives.
+using Generation = std::uint32_t;
+
+struct PoseItem {
+    Generation generation = 0;
+    Pose pose;
+};
+
+struct SourceItem {
+    Generation generation = 0;
+    std::uint16_t index = 0; ///< place in Engine::sources()
+    std::uint16_t count = 0; ///< how many there are
+    AidStatus status;
+};
+
+struct TickItem {
+    Generation generation = 0;
+    Timestamp tick{};
+    Duration late{}; ///< from the tick to the thread running again
+    std::uint64_t ticks = 0;
+    std::uint64_t overruns = 0; ///< ticks that came late by more than one period
+    bool realtime = false;
+    EngineCounters engine;
+};
+
+/// The largest settings (4096 targets) fit into one tick; what does not fit is dropped and counted by the ring.
+struct FusionOutput {
+    Ring<PoseItem, 8192> poses;
+    Ring<SourceItem, 2048> sources;
+    Ring<TickItem, 2048> ticks;
+};
+
+} // namespace locus

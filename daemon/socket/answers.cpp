@@ -1,0 +1,184 @@
+#include "daemon/socket/answers.h"
+
+#include "daemon/socket/diagnose.h"
+#include "daemon/socket/json_text.h"
+#include "daemon/socket/pose_line.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace locus {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 7> source_kind_names{"anchor", "camera",  "satellite", "beacon",
+                                                            "imu",    "vehicle", "input"};
+
+/// One line; names that are not UTF-8 are mended, never thrown over.
+std::string line(const ordered_json& object) {
+    return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+void put_finite(ordered_json& object, const char* key, double value) {
+    if (std::isfinite(value)) object[key] = value;
+}
+
+/// Nothing when `time` is not known.
+void put_age(ordered_json& object, const char* key, Timestamp time, Timestamp now) {
+    if (time != Timestamp{}) object[key] = to_s(now - time);
+}
+
+ordered_json counters_json(const AidCounters& counters) {
+    return {{"received", counters.received},
+            {"used", counters.used},
+            {"refused", counters.refused},
+            {"late", counters.late}};
+}
+
+ordered_json source_json(const AidStatus& source, const Roster& roster, Timestamp now) {
+    const Verdict& verdict = source.last_verdict;
+    ordered_json object{{"kind", source_kind_names[static_cast<std::size_t>(source.kind)]},
+                        {"name", roster.names.source(source.kind, source.source)},
+                        {"address", address_text(source.source)}};
+    if (source.input < roster.inputs.size()) object["input"] = roster.inputs[source.input].name;
+    object["used"] = verdict.reason == Exclusion::none;
+    object["reason"] = exclusion_name(verdict.reason);
+    object["sentence"] = exclusion_sentence(verdict.reason);
+    if (source.last_time != Timestamp{}) put_finite(object, "observation", source.last_observation);
+    put_finite(object, "innovation", verdict.innovation);
+    put_finite(object, "innovation_sigma", verdict.innovation_sigma);
+    put_finite(object, "test_ratio", verdict.test_ratio);
+    put_finite(object, "rate_hz", source.rate_hz);
+    put_finite(object, "delay_s", source.delay_s);
+    put_age(object, "age_s", source.last_time, now);
+    put_age(object, "last_used_age_s", source.last_used_time, now);
+    if (source.last_target != no_address) object["last_target"] = roster.names.target(source.last_target);
+    object["counters"] = counters_json(source.counters);
+    return object;
+}
+
+ordered_json refused_json(const InputStatus& status) {
+    ordered_json object = ordered_json::object();
+    for (std::size_t reason = 0; reason < refusal_count; ++reason)
+        if (const auto count = status.refused[reason].load()) object[std::string{refusal_names[reason]}] = count;
+    return object;
+}
+
+ordered_json input_json(const InputEntry& input, Timestamp now) {
+    ordered_json object{{"name", input.name}, {"transport", input.transport}, {"decoder", input.decoder}};
+    object["state"] = input.status ? name_of(input.status->state) : "disabled";
+    if (!input.status) return object;
+    const InputStatus& status = *input.status;
+    object["error"] = status.trouble.get();
+    object["bytes"] = status.bytes.load();
+    object["packets"] = status.packets.load();
+    object["frames"] = status.frames.load();
+    object["measurements"] = status.measurements.load();
+    object["refused"] = refused_json(status);
+    object["reconnects"] = status.reconnects.load();
+    object["ring_dropped"] = status.ring_dropped.load();
+    object["kernel_dropped"] = status.kernel_dropped.load();
+    object["wire_errors"] = status.wire_errors.load();
+    put_age(object, "age_s", timestamp_from_ns(status.last_packet_ns), now);
+    return object;
+}
+
+ordered_json target_json(Address address, const TargetView& view, const Roster& roster, Timestamp now) {
+    const Pose& pose = view.pose;
+    const bool has_pose = is_publishable(pose);
+    ordered_json object{{"name", roster.names.target(address)}, {"address", address_text(address)}};
+    if (pose.estimator < estimator_table().size()) object["estimator"] = estimator_table()[pose.estimator].name;
+    object["has_pose"] = has_pose;
+    object["missing"] = missing_sentence(pose.estimate.missing);
+    if (has_pose) {
+        object["time"] = to_s(pose.estimate.time);
+        put_age(object, "age_s", pose.estimate.time, now);
+        object["position_site_m"] = pose.estimate.position_site_m;
+        put_finite(object, "horizontal_error_95_m", pose.horizontal_error_95_m);
+    }
+    object["reset_count"] = view.reset_count();
+    return object;
+}
+
+ordered_json engine_json(const EngineCounters& counters) {
+    return {{"received", counters.received},
+            {"late", counters.late},
+            {"refused", counters.refused},
+            {"rolled_back", counters.rolled_back}};
+}
+
+} // namespace
+
+std::string_view release() { return LOCUS_RELEASE; }
+
+std::string version_line(const Roster& roster) {
+    return line({{"class", "VERSION"},
+                 {"release", release()},
+                 {"protocol_major", protocol_major},
+                 {"protocol_minor", protocol_minor},
+                 {"site", roster.site},
+                 {"rate_hz", roster.rate_hz}});
+}
+
+std::string watch_line(const Watch& watch) {
+    ordered_json object{{"class", "WATCH"}, {"enable", watch.enable}, {"poses", watch.poses}};
+    if (watch.rate_hz > 0) object["rate_hz"] = watch.rate_hz;
+    if (!watch.targets.empty()) object["targets"] = watch.targets;
+    return line(object);
+}
+
+std::string sources_line(const Picture& picture, const Roster& roster, Timestamp now) {
+    ordered_json sources = ordered_json::array(), inputs = ordered_json::array();
+    for (const AidStatus& source : picture.sources())
+        if (source.source != no_address) sources.push_back(source_json(source, roster, now));
+    for (const InputEntry& input : roster.inputs) inputs.push_back(input_json(input, now));
+    return line({{"class", "SOURCES"}, {"sources", std::move(sources)}, {"inputs", std::move(inputs)}});
+}
+
+std::string targets_line(const Picture& picture, const Roster& roster, Timestamp now) {
+    ordered_json targets = ordered_json::array();
+    for (const auto& [address, view] : picture.targets()) targets.push_back(target_json(address, view, roster, now));
+    return line({{"class", "TARGETS"}, {"targets", std::move(targets)}});
+}
+
+std::string status_line(const Picture& picture, const Roster& roster, std::size_t clients, Timestamp now) {
+    const TickItem& tick = picture.tick();
+    ordered_json object{{"class", "STATUS"},
+                        {"working", is_working(picture)},
+                        {"missing", diagnose(picture, roster)},
+                        {"uptime_s", to_s(now - roster.started)},
+                        {"rate_hz", roster.rate_hz},
+                        {"ticks", tick.ticks},
+                        {"overruns", tick.overruns}};
+    if (const auto late = picture.lateness())
+        object["tick_late_us"] = {{"p50", late->p50_us}, {"p99", late->p99_us}, {"max", late->max_us}};
+    object["clients"] = clients;
+    object["config"] = roster.config;
+    object["engine"] = engine_json(tick.engine);
+    object["memory_locked"] = roster.memory_locked;
+    object["realtime"] = tick.realtime;
+    object["version"] = release();
+    return line(object);
+}
+
+std::string poll_lines(const Picture& picture, const Roster& roster) {
+    std::string lines;
+    std::size_t poses = 0;
+    for (const auto& [address, view] : picture.targets()) {
+        if (!is_publishable(view.pose)) continue;
+        lines += open_pose_line(view.pose, roster.names.target(address), view.reset_count()) + "}\n";
+        ++poses;
+    }
+    return lines + line({{"class", "POLL"}, {"poses", poses}});
+}
+
+std::string reload_line(bool ok, const std::vector<std::string>& problems) {
+    return line({{"class", "RELOAD"}, {"ok", ok}, {"problems", problems}});
+}
+
+std::string error_line(std::string_view message) { return line({{"class", "ERROR"}, {"message", message}}); }
+
+} // namespace locus

@@ -1,0 +1,157 @@
+#include "daemon/socket/answers.h"
+
+#include "daemon/socket/json_text.h"
+#include "daemon/socket/pose_line.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+namespace locus {
+namespace {
+
+using nlohmann::json;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Pose some_pose(std::uint64_t target = 7) {
+    Pose pose;
+    pose.target = address(target);
+    pose.published = timestamp_from_ns(12'000'000'345);
+    pose.horizontal_error_95_m = 0.25F;
+    pose.vertical_error_95_m = 0.5F;
+    pose.estimate.time = timestamp_from_ns(12'000'000'000);
+    pose.estimate.position_site_m = {1.5, -2.25, 0.125};
+    pose.estimate.covariance[0] = 0.01;
+    pose.estimate.covariance[7] = 0.02;
+    pose.estimate.covariance[14] = 0.03;
+    pose.estimate.kinds_used = 0b11;
+    pose.estimate.missing = Missing::nothing;
+    return pose;
+}
+
+Roster some_roster() {
+    EngineSettings engine;
+    engine.site.anchors.push_back({.name = "door", .address = address(3), .position_site_m = {}});
+    engine.targets.push_back({.name = "forklift", .address = address(7), .estimator = {}});
+    Roster roster;
+    roster.names = Names{engine};
+    roster.anchors = 1;
+    roster.site = "hall";
+    return roster;
+}
+
+json closed(const std::string& open_line) { return json::parse(open_line + "}"); }
+
+TEST(PoseLine, SaysWhatTheProtocolPageSays) {
+    const json line = closed(open_pose_line(some_pose(), "forklift", 4));
+    EXPECT_EQ(line["class"], "POSE");
+    EXPECT_EQ(line["target"], "forklift");
+    EXPECT_EQ(line["position_site_m"], (std::vector<double>{1.5, -2.25, 0.125}));
+    EXPECT_EQ(line["covariance_m2"], (std::vector<double>{0.01, 0, 0, 0.02, 0, 0.03}));
+    EXPECT_EQ(line["kinds_used"], (std::vector<std::string>{"RANGE", "RANGE_DIFFERENCE"}));
+    EXPECT_EQ(line["reset_count"], 4);
+    EXPECT_DOUBLE_EQ(line["horizontal_error_95_m"], 0.25);
+    EXPECT_FALSE(line.contains("orientation_xyzw")) << "not known";
+    EXPECT_NE(open_pose_line(some_pose(), "x", 0).find("\"published\":12.000000345,"), std::string::npos);
+}
+
+TEST(PoseLine, WithoutAFinitePositionNothingLeaves) {
+    Pose pose = some_pose();
+    EXPECT_TRUE(is_publishable(pose));
+    pose.estimate.position_site_m[1] = nan;
+    EXPECT_FALSE(is_publishable(pose));
+    pose = some_pose();
+    pose.estimate.missing = Missing::geometry;
+    EXPECT_FALSE(is_publishable(pose));
+}
+
+RC_GTEST_PROP(PoseLine, IsJsonWhateverTheFilterSays, ()) {
+    const auto value = [&] {
+        return *rc::gen::element(0.0, -0.0, 1.0, 1e-300, 1e300, -1e9, 123456.789, nan, infinity, -infinity);
+    };
+    Pose pose = some_pose();
+    for (double& v : pose.estimate.position_site_m) v = value();
+    for (double& v : pose.estimate.velocity_site_mps) v = value();
+    for (double& v : pose.estimate.orientation_xyzw) v = value();
+    for (double& v : pose.estimate.covariance) v = value();
+    pose.horizontal_error_95_m = static_cast<float>(value());
+    pose.estimate.kinds_used = *rc::gen::arbitrary<std::uint32_t>();
+    pose.estimator = *rc::gen::arbitrary<std::uint16_t>();
+    pose.published = timestamp_from_ns(*rc::gen::arbitrary<std::int64_t>());
+    const json line = json::parse(open_pose_line(pose, *rc::gen::arbitrary<std::string>(), 0) + "}", nullptr, false);
+    RC_ASSERT(line.is_object());
+    RC_ASSERT(line.dump(-1, ' ', false, json::error_handler_t::replace).find("null") == std::string::npos);
+}
+
+TEST(JsonText, SecondsHaveNineDigits) {
+    const auto text = [](std::int64_t ns) {
+        std::string out;
+        append_seconds(out, timestamp_from_ns(ns));
+        return out;
+    };
+    EXPECT_EQ(text(0), "0.000000000");
+    EXPECT_EQ(text(1), "0.000000001");
+    EXPECT_EQ(text(-1'500'000'000), "-1.500000000");
+    EXPECT_EQ(text(123'456'789'012'345'678), "123456789.012345678");
+}
+
+TEST(Answers, EachIsOneLineOfItsClass) {
+    const Picture picture;
+    const Roster roster = some_roster();
+    for (const auto& [line, name] : {std::pair{version_line(roster), "VERSION"},
+                                     {watch_line({}), "WATCH"},
+                                     {sources_line(picture, roster, {}), "SOURCES"},
+                                     {targets_line(picture, roster, {}), "TARGETS"},
+                                     {status_line(picture, roster, 1, {}), "STATUS"},
+                                     {poll_lines(picture, roster), "POLL"},
+                                     {reload_line(false, {"a.yaml:1:2: no"}), "RELOAD"},
+                                     {error_line("no"), "ERROR"}}) {
+        EXPECT_EQ(line.find('\n'), line.size() - 1) << name;
+        EXPECT_EQ(json::parse(line)["class"], name);
+    }
+}
+
+TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
+    Picture picture;
+    AidStatus status;
+    status.source = address(3);
+    status.last_verdict.reason = Exclusion::innovation_too_large;
+    status.last_verdict.innovation = 2.5F;
+    picture.take(SourceItem{1, 0, 1, status});
+    const json source = json::parse(sources_line(picture, some_roster(), {}))["sources"][0];
+    EXPECT_EQ(source["name"], "door");
+    EXPECT_EQ(source["address"], "0x3");
+    EXPECT_EQ(source["used"], false);
+    EXPECT_EQ(source["reason"], "innovation_too_large");
+    EXPECT_EQ(source["sentence"], exclusion_sentence(Exclusion::innovation_too_large));
+    EXPECT_DOUBLE_EQ(source["innovation"], 2.5);
+    EXPECT_FALSE(source.contains("test_ratio"));
+    EXPECT_FALSE(source.contains("age_s"));
+}
+
+TEST(Answers, PollGivesTheNewestPoseOfEveryTargetThatHasOne) {
+    Picture picture;
+    picture.take(PoseItem{1, some_pose(7)});
+    Pose none = some_pose(8);
+    none.estimate.missing = Missing::anchors;
+    picture.take(PoseItem{1, none});
+    const std::string lines = poll_lines(picture, some_roster());
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2);
+    EXPECT_NE(lines.find("\"target\":\"forklift\""), std::string::npos);
+    EXPECT_NE(lines.find("{\"class\":\"POLL\",\"poses\":1}"), std::string::npos);
+}
+
+TEST(Answers, WhatPeopleCallThingsCannotBreakALine) {
+    const std::string nasty{"a\"\n\xff;\x01", 6};
+    EXPECT_EQ(error_line(nasty).find('\n'), error_line(nasty).size() - 1);
+    EXPECT_TRUE(json::parse(error_line(nasty), nullptr, false).is_object());
+    EXPECT_TRUE(closed(open_pose_line(some_pose(), nasty, 0)).is_object());
+}
+
+} // namespace
+} // namespace locus
