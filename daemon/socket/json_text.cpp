@@ -17,21 +17,7 @@ void append_number(std::string& out, double value, std::chars_format format, int
     out.append(text, end);
 }
 
-void append_digits(std::string& out, std::int64_t value, std::size_t width) {
-    const std::string digits = std::to_string(value);
-    out.append(width - std::min(width, digits.size()), '0');
-    out += digits;
-}
-
 } // namespace
-
-void append_seconds(std::string& out, Timestamp time) {
-    const std::int64_t ns = to_ns(time);
-    if (ns < 0) out += '-';
-    append_digits(out, std::abs(ns / 1'000'000'000), 1);
-    out += '.';
-    append_digits(out, std::abs(ns % 1'000'000'000), 9);
-}
 
 void append_fixed(std::string& out, double value, int decimals) {
     if (std::abs(value) >= 1e9) return append_general(out, value);

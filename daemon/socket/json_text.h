@@ -2,17 +2,11 @@
 // not finite.
 #pragma once
 
-#include "fusion/time.h"
-
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace locus {
-
-/// "12.345678901": seconds with nine digits.
-void append_seconds(std::string& out, Timestamp time);
 
 /// Fixed point with `decimals` digits; far from 1 in general notation. `value` is finite.
 void append_fixed(std::string& out, double value, int decimals);

@@ -1,6 +1,7 @@
 #include "daemon/socket/pose_line.h"
 
 #include "daemon/socket/json_text.h"
+#include "drivers/recording/stamp.h"
 #include "fusion/estimators/estimator.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "daemon/socket/answers.h"
 
-#include "daemon/socket/json_text.h"
 #include "daemon/socket/pose_line.h"
 
 #include <gtest/gtest.h>
@@ -86,18 +85,6 @@ RC_GTEST_PROP(PoseLine, IsJsonWhateverTheFilterSays, ()) {
     const json line = json::parse(open_pose_line(pose, *rc::gen::arbitrary<std::string>(), 0) + "}", nullptr, false);
     RC_ASSERT(line.is_object());
     RC_ASSERT(line.dump(-1, ' ', false, json::error_handler_t::replace).find("null") == std::string::npos);
-}
-
-TEST(JsonText, SecondsHaveNineDigits) {
-    const auto text = [](std::int64_t ns) {
-        std::string out;
-        append_seconds(out, timestamp_from_ns(ns));
-        return out;
-    };
-    EXPECT_EQ(text(0), "0.000000000");
-    EXPECT_EQ(text(1), "0.000000001");
-    EXPECT_EQ(text(-1'500'000'000), "-1.500000000");
-    EXPECT_EQ(text(123'456'789'012'345'678), "123456789.012345678");
 }
 
 TEST(Answers, EachIsOneLineOfItsClass) {
