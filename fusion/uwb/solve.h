@@ -30,6 +30,9 @@ struct SolveSettings {
     bool planar = false;      ///< solve for x and y at height_site_m
     double height_site_m = 0; ///< the tag's height when planar
     double max_pdop = 20;     ///< above it the geometry is refused as degenerate
+    /// Between the noise of any two differences. 0: independent. 0.5: all share anchor a and every arrival has the same
+    /// noise, so R = sigma^2 / 2 (I + 11'). Only for differences with one common anchor a.
+    double difference_correlation = 0;
 };
 
 struct Fix {
