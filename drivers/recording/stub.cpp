@@ -1,2 +1,0 @@
-#include "drivers/recording/log_line.h"
-#include "drivers/recording/measurement_json.h"
