@@ -1,4 +1,5 @@
 // locus watch: the poses as they come, as a table that stays in place, as lines, or as the daemon's own JSON lines.
+#include "drivers/clock.h"
 #include "tools/client/command.h"
 #include "tools/client/fields.h"
 #include "tools/client/watching.h"
@@ -26,45 +27,6 @@ struct WatchOptions {
     double seconds = std::numeric_limits<double>::infinity();
 };
 
-// Where the poses go: one of three.
-class View {
-  public:
-    virtual ~View() = default;
-    virtual void take(const Message& message) = 0;
-    virtual void refresh() { std::fflush(stdout); }
-};
-
-class JsonLines : public View {
-  public:
-    void take(const Message& message) override {
-        if (message.class_name == "POSE") fmt::print("{}\n", message.line);
-    }
-};
-
-class TextLines : public View {
-  public:
-    void take(const Message& message) override {
-        if (message.class_name == "POSE") fmt::print("{}\n", pose_line(message.fields));
-    }
-};
-
-class LiveTable : public View {
-  public:
-    LiveTable(const Message& version, const WatchOptions& options) : poses_(version, options.request.targets) {}
-    void take(const Message& message) override { poses_.take(message); }
-    void refresh() override { screen_.show(poses_.lines(monotonic_now_s())); }
-
-  private:
-    PosePanel poses_;
-    LivePanel screen_;
-};
-
-std::unique_ptr<View> make_view(const Client& client, const WatchOptions& options, bool as_json) {
-    if (as_json) return std::make_unique<JsonLines>();
-    if (on_terminal()) return std::make_unique<LiveTable>(client.version(), options);
-    return std::make_unique<TextLines>();
-}
-
 // Something that is due again and again, however late it was seen to.
 class Every {
   public:
@@ -82,14 +44,52 @@ class Every {
     Deadline next_;
 };
 
-// Silence would leave the reader to guess.
-void hint_when_silent(std::uint64_t poses, Every& hint) {
-    if (hint.due() && poses == 0) complain("no pose yet: `locus status` says what is missing");
+class View {
+  public:
+    virtual ~View() = default;
+    virtual void take(const Message& message) = 0;
+    virtual void refresh() = 0;
+};
+
+// A line a pose, out at once: the reader may be a program. Silence would leave a person to guess.
+class Lines : public View {
+  public:
+    explicit Lines(bool as_json) : as_json_(as_json) {}
+    void take(const Message& message) override {
+        if (message.class_name != "POSE") return;
+        fmt::print("{}\n", as_json_ ? message.line : pose_line(message.fields));
+        std::fflush(stdout);
+        silent_ = false;
+    }
+    void refresh() override {
+        if (silent_ && hint_.due()) complain("no pose yet: `locus status` says what is missing");
+    }
+
+  private:
+    bool as_json_;
+    bool silent_ = true;
+    Every hint_{10s, deadline_in(2)};
+};
+
+class LiveTable : public View {
+  public:
+    LiveTable(const Message& version, const WatchOptions& options) : poses_(version, options.request.targets) {}
+    void take(const Message& message) override { poses_.take(message); }
+    void refresh() override { screen_.show(poses_.lines(to_s(monotonic_now()))); }
+
+  private:
+    PosePanel poses_;
+    LivePanel screen_;
+};
+
+std::unique_ptr<View> make_view(const Client& client, const WatchOptions& options, bool as_json) {
+    if (on_terminal() && !as_json) return std::make_unique<LiveTable>(client.version(), options);
+    return std::make_unique<Lines>(as_json);
 }
 
 std::uint64_t stream(Client& client, const WatchOptions& options, View& view) {
     const Deadline end = deadline_in(options.seconds);
-    Every refresh(200ms, steady_clock::now() + 50ms), targets(1s, steady_clock::now()), hint(24h, deadline_in(2));
+    Every refresh(200ms, steady_clock::now() + 50ms), targets(1s, steady_clock::now());
     std::uint64_t poses = 0;
     while (poses < options.count && steady_clock::now() < end) {
         if (targets.due()) client.send("?TARGETS;\n");
@@ -98,7 +98,6 @@ std::uint64_t stream(Client& client, const WatchOptions& options, View& view) {
             poses += message->class_name == "POSE";
         }
         if (refresh.due()) view.refresh();
-        hint_when_silent(poses, hint);
     }
     view.refresh();
     return poses;

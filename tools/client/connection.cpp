@@ -12,7 +12,6 @@
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 namespace locus::tools {
 
@@ -61,19 +60,15 @@ sockaddr_un socket_address(const std::string& path) {
 Connection::Connection(std::string path) : path_(std::move(path)) {
     const sockaddr_un address = socket_address(path_);
     refuse_what_is_no_socket(path_);
-    fd_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (fd_ >= 0) ::setsockopt(fd_, SOL_SOCKET, SO_SNDTIMEO, &send_patience, sizeof send_patience);
-    if (fd_ >= 0 && ::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return;
-    const int error = errno;
-    if (fd_ >= 0) ::close(fd_);
-    throw DaemonError(why_not_connected(path_, error));
+    fd_.reset(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    ::setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &send_patience, sizeof send_patience);
+    if (::connect(fd_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+        throw DaemonError(why_not_connected(path_, errno));
 }
-
-Connection::~Connection() { ::close(fd_); }
 
 void Connection::send(std::string_view text) {
     while (!text.empty()) {
-        const ssize_t sent = ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
+        const ssize_t sent = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR) continue;
         if (sent < 0) throw DaemonError(fmt::format("locusd at {} takes no command: {}", path_, std::strerror(errno)));
         text.remove_prefix(static_cast<std::size_t>(sent));
@@ -101,7 +96,7 @@ bool Connection::wait_readable(Deadline deadline) const {
     using std::chrono::milliseconds, std::chrono::steady_clock;
     do {
         const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
-        pollfd poll{fd_, POLLIN, 0};
+        pollfd poll{fd_.get(), POLLIN, 0};
         const auto patience = std::clamp(left, milliseconds{0}, milliseconds{60'000});
         if (::poll(&poll, 1, static_cast<int>(patience.count())) > 0) return true;
     } while (steady_clock::now() < deadline);
@@ -116,7 +111,7 @@ void Connection::fill() {
         throw DaemonError(
             fmt::format("{} sends a line of more than {} bytes: it is not locusd", path_, max_line_bytes));
     std::array<char, 65536> chunk;
-    const ssize_t got = ::recv(fd_, chunk.data(), chunk.size(), 0);
+    const ssize_t got = ::recv(fd_.get(), chunk.data(), chunk.size(), 0);
     if (got < 0 && errno == EINTR) return;
     if (got < 0) throw DaemonError(fmt::format("the connection to locusd broke: {}", std::strerror(errno)));
     if (got == 0) throw DaemonError("locusd closed the connection: see `systemctl status locusd`");

@@ -1,6 +1,8 @@
 // The UNIX socket to the daemon: lines in, commands out, and a sentence for the person at the keyboard when it fails.
 #pragma once
 
+#include "drivers/transport/unique_fd.h"
+
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -24,9 +26,6 @@ class Connection {
 
     /// Throws DaemonError when nothing listens at `path` or it may not be opened.
     explicit Connection(std::string path);
-    ~Connection();
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
 
     /// Throws DaemonError when the daemon is gone or has not taken it within some seconds.
     void send(std::string_view text);
@@ -41,7 +40,7 @@ class Connection {
     void fill();
 
     std::string path_;
-    int fd_ = -1;
+    UniqueFd fd_;
     std::string buffer_;
     std::size_t begin_ = 0;   ///< start of the line under way
     std::size_t scanned_ = 0; ///< no line end before this

@@ -11,7 +11,7 @@ std::string watch_command(const WatchRequest& request) {
     if (!request.targets.empty()) options["targets"] = request.targets;
     if (request.rate_hz) options["rate_hz"] = *request.rate_hz;
     std::string json = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    // A ';' ends the command wherever it stands, and in JSON it can only stand in a name.
+    // The first ';' ends the command, and in JSON it can only stand in a name.
     for (std::size_t at = 0; (at = json.find(';', at)) != std::string::npos;) json.replace(at, 1, "\\u003b");
     return "?WATCH=" + json + ";\n";
 }
@@ -20,10 +20,6 @@ void start_watching(Client& client, const WatchRequest& request) {
     const Message answer = client.ask(watch_command(request), "WATCH");
     if (answer.class_name == "ERROR")
         throw DaemonError(fmt::format("locusd refuses to be watched: {}", text(answer.fields, "message")));
-}
-
-double monotonic_now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Deadline deadline_in(double seconds) {

@@ -3,7 +3,6 @@
 
 #include "tools/client/client.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,9 +19,6 @@ std::string watch_command(const WatchRequest& request);
 
 /// Asks for the stream. Throws DaemonError with the daemon's own sentence when it refuses.
 void start_watching(Client& client, const WatchRequest& request);
-
-/// Seconds of CLOCK_MONOTONIC, the clock that poses are stamped with.
-double monotonic_now_s();
 
 /// Now and so many seconds more; the end of all days when that is beyond it.
 Deadline deadline_in(double seconds);
