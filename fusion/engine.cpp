@@ -2,6 +2,7 @@
 
 #include "fusion/aid_book.h"
 #include "fusion/fresh_estimators.h"
+#include "fusion/geometry/error_bound.h"
 #include "fusion/identity.h"
 #include "fusion/target_table.h"
 
@@ -14,14 +15,6 @@ namespace {
 
 /// Stamps may lie this much after the arrival: two clocks that are read one after the other are never quite together.
 constexpr Duration stamp_tolerance = duration_from_s(0.005);
-/// Two-sided 95 % quantile of the normal distribution.
-constexpr double normal_95 = 1.959964;
-
-/// Until fusion/geometry/error_bound.h is there: exact for a circle and for a line, within 1 % between.
-float horizontal_error_95_m(double xx, double xy, double yy) {
-    const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
-    return static_cast<float>(std::sqrt(3.8415 * (mean + spread) + 2.15 * std::max(0.0, mean - spread)));
-}
 
 SampleKey key_of(const Measurement& measurement, const Delivery& delivery) {
     return {measurement.time, measurement.input, measurement.sequence,
@@ -46,7 +39,7 @@ void fill(Pose& pose, const Estimate& estimate) {
     if (pose.estimate.missing != Missing::nothing) return;
     const auto& p = estimate.covariance;
     pose.horizontal_error_95_m = horizontal_error_95_m(p[0], p[1], p[7]);
-    pose.vertical_error_95_m = static_cast<float>(normal_95 * std::sqrt(std::max(0.0, p[14])));
+    pose.vertical_error_95_m = vertical_error_95_m(p[14]);
 }
 
 } // namespace
