@@ -1,12 +1,12 @@
 // The estimators that a configuration can name.
-#include "fusion/estimators/estimator.h"
+#include "fusion/estimators/range_ekf.h"
 
 #include <algorithm>
 #include <array>
 
 namespace locus {
 namespace {
-constexpr std::array<EstimatorRow, 0> rows{};
+constexpr std::array rows{range_ekf_row};
 }
 
 std::span<const EstimatorRow> estimator_table() { return rows; }

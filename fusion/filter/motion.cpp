@@ -30,12 +30,13 @@ AxisStep axis_step(const MotionModel& model, double dt_s) noexcept {
     step.transition << 1, dt_s, 0, 0, 1, 0, 0, 0, 0;
     step.transition.col(2) = response(model.acceleration_time_s, dt_s);
     step.noise.setZero();
+    const double sigma = model.acceleration_sigma_mps2;
+    const double power = 2 * sigma * sigma * dt_s / model.acceleration_time_s;
     for (const Node& node : nodes) {
-        const Eigen::Vector3d pushed = response(model.acceleration_time_s, node.place * dt_s);
-        step.noise += node.weight * pushed * pushed.transpose();
+        const Eigen::Vector3d pushed =
+            std::sqrt(node.weight * power) * response(model.acceleration_time_s, node.place * dt_s);
+        step.noise += pushed * pushed.transpose();
     }
-    const double variance = model.acceleration_sigma_mps2 * model.acceleration_sigma_mps2;
-    step.noise *= 2 * variance * dt_s / model.acceleration_time_s;
     return step;
 }
 

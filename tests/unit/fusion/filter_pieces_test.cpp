@@ -62,7 +62,7 @@ double seconds(int least_exponent, int most_exponent) {
 
 // Two steps must be one: the transition composes and the noise of the first is carried through the second.
 TEST(AxisStep, TwoStepsAreOneStep) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const MotionModel model{1.7, seconds(-1, 3)};
         const double first_s = seconds(-4, -1), second_s = seconds(-4, -1);
         const AxisStep a = axis_step(model, first_s), b = axis_step(model, second_s);
@@ -72,16 +72,16 @@ TEST(AxisStep, TwoStepsAreOneStep) {
         // The quadrature is exact to the 7th power of step over time; both steps are under twenty times the time.
         RC_ASSERT((noise - both.noise).norm() < 1e-6 * both.noise.norm() ||
                   first_s + second_s > model.acceleration_time_s);
-    });
+    }));
 }
 
 TEST(AxisStep, NoiseIsPositiveSemiDefiniteForAnyStep) {
-    rc::check([] {
+    EXPECT_TRUE(rc::check([] {
         const AxisStep step = axis_step({2, seconds(-2, 3)}, seconds(-6, 3));
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(step.noise);
         RC_ASSERT(step.noise == step.noise.transpose());
         RC_ASSERT(eigen.eigenvalues().minCoeff() >= -1e-12 * eigen.eigenvalues().maxCoeff());
-    });
+    }));
 }
 
 TEST(AxisStep, LongDecayIsConstantAccelerationAndWhiteJerk) {

@@ -1,0 +1,72 @@
+// What can be set of the range filter.
+#pragma once
+
+#include "fusion/option.h"
+
+#include <array>
+
+namespace locus {
+
+struct RangeEkfSettings {
+    double range_sigma_m = 0.1;
+    double range_difference_sigma_m = 0.1;
+    double anchor_error_sigma_m = 0.2;
+    double anchor_error_time_s = 0.3;
+    double common_range_error_sigma_m = 0.5;
+    double acceleration_sigma_mps2 = 2;
+    double acceleration_time_s = 1;
+    double speed_sigma_mps = 1;
+    double robust_scale = 1;
+    double gate_false_alarm = 1e-4;
+    int gate_patience = 10;
+    double max_range_m = 200;
+    bool use_blocked = false;
+    double start_window_s = 0.5;
+    double lost_after_s = 0.3;
+    double forget_after_s = 3;
+    bool planar = false;
+    double height_m = 0;
+};
+
+inline constexpr std::array range_ekf_options{
+    option<&RangeEkfSettings::range_sigma_m>(
+        "range_sigma_m", "m", 0.001, 100,
+        "Noise of a range that is new each time, where neither the device nor the anchor states one."),
+    option<&RangeEkfSettings::range_difference_sigma_m>(
+        "range_difference_sigma_m", "m", 0.001, 100,
+        "Noise of a range difference that is new each time, where neither the device nor the anchors state one."),
+    option<&RangeEkfSettings::anchor_error_sigma_m>(
+        "anchor_error_sigma_m", "m", 0, 100,
+        "Error of an anchor that stays while the pose hardly changes (antenna, body, multipath)."),
+    option<&RangeEkfSettings::anchor_error_time_s>("anchor_error_time_s", "s", 0.01, 1e6,
+                                                   "Time in which that error becomes another one."),
+    option<&RangeEkfSettings::common_range_error_sigma_m>(
+        "common_range_error_sigma_m", "m", 0, 100,
+        "Constant error common to all ranges of a tag (antenna delay), found as it moves."),
+    option<&RangeEkfSettings::acceleration_sigma_mps2>("acceleration_sigma_mps2", "m/s^2", 0.001, 1000,
+                                                       "Acceleration that the target is capable of."),
+    option<&RangeEkfSettings::acceleration_time_s>(
+        "acceleration_time_s", "s", 0.01, 1e4,
+        "Time in which an acceleration dies away; very long: the constant acceleration of paper 001."),
+    option<&RangeEkfSettings::speed_sigma_mps>("speed_sigma_mps", "m/s", 0.001, 1000,
+                                               "Speed that a target may have when it is first heard."),
+    option<&RangeEkfSettings::robust_scale>("robust_scale", "sigma", 0.1, 1e6,
+                                            "Innovation at which a measurement keeps half its weight (Cauchy)."),
+    option<&RangeEkfSettings::gate_false_alarm>("gate_false_alarm", "", 1e-12, 0.5,
+                                                "Chance that the gate refuses a good measurement."),
+    option<&RangeEkfSettings::gate_patience>("gate_patience", "", 0, 1000000,
+                                             "Measurements of an anchor refused in a row before one is let in again."),
+    option<&RangeEkfSettings::max_range_m>("max_range_m", "m", 0.1, 1e6, "Longest range, or difference, believed."),
+    option<&RangeEkfSettings::use_blocked>("use_blocked",
+                                           "Whether measurements are used that the device itself calls blocked."),
+    option<&RangeEkfSettings::start_window_s>("start_window_s", "s", 0.01, 60,
+                                              "Age of the measurements that a first position is made from."),
+    option<&RangeEkfSettings::lost_after_s>("lost_after_s", "s", 0.01, 60,
+                                            "How long most measurements are refused before the filter doubts itself."),
+    option<&RangeEkfSettings::forget_after_s>("forget_after_s", "s", 0.1, 3600,
+                                              "Without a measurement for this long the filter starts anew."),
+    option<&RangeEkfSettings::planar>("planar", "Whether the height is known and only x and y are estimated."),
+    option<&RangeEkfSettings::height_m>("height_m", "m", -1e5, 1e5, "Height of the tag when planar."),
+};
+
+} // namespace locus
