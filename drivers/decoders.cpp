@@ -1,5 +1,7 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/uwb/dw1000_can.h"
+#include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
 
 #include <algorithm>
@@ -10,6 +12,10 @@ namespace {
 constexpr std::array rows{
     DecoderRow{"trek1000", "Decawave TREK1000, EVK1000 and HaoruTech modules: ranges as ASCII lines", Wire::bytes,
                option_table<uwb::TrekSettings>(uwb::trek_options), uwb::make_trek1000},
+    DecoderRow{"dw1000_can", "DW1000 ranges and range differences over CAN (docs/can-dw1000.md)", Wire::can,
+               option_table<uwb::Dw1000CanSettings>(uwb::dw1000_can_options), uwb::make_dw1000_can},
+    DecoderRow{"robomaster_can", "DJI RoboMaster UWB tag module: six ranges over CAN", Wire::can,
+               option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
 };
 }
 
