@@ -1,0 +1,21 @@
+# Bytes on real lines become poses at the socket.
+
+check_20_can_frames_become_poses() {
+  start_can_feed
+  locus wait --target cart --better-than 1.0 --timeout 30 && locus watch --json --target cart --count 3
+}
+
+check_21_usb_serial_becomes_poses() {
+  start_serial_feed
+  locus wait --target still --better-than 1.0 --timeout 30 || return 1
+  locus watch --json --target still --count 1 | python3 -c '
+import json, math, sys
+pose = json.loads(sys.stdin.readline())
+error_m = math.dist(pose["position_site_m"], (2, 3, 1))
+print("error", round(error_m, 3), "m")
+sys.exit(error_m > 0.3)'
+}
+
+check_22_every_can_frame_is_counted() {
+  [ "$(input_field can kernel_dropped)" = 0 ] && [ "$(input_field can ring_dropped)" = 0 ] && [ "$(input_field can frames)" -gt 100 ]
+}

@@ -1,0 +1,37 @@
+# What the rig's checks share: the cable, the bus, the traffic, and waiting with an end.
+
+within() { # within SECONDS COMMAND...: tries until it holds
+  local until=$((SECONDS + $1)); shift
+  until "$@"; do [ $SECONDS -lt $until ] || { echo "not within the time: $*"; return 1; }; sleep 0.3; done
+}
+
+plug_usb_serial() { insmod /rig/g_serial.ko && within 20 usb_serial_is_there; }
+unplug_usb_serial() { rmmod g_serial; }
+usb_serial_is_there() { [ -n "$(usb_serial)" ] && [ -c /dev/ttyGS0 ]; }
+usb_serial() { ls /dev/serial/by-id/* 2>/dev/null | head -1; }
+
+# A tag that stands still at (2, 3, 1) among the anchors of configuration.yaml, said in TREK1000's words at 10 Hz.
+trek_line() { printf 'mc 0f %08x %08x %08x %08x %04x %02x %08x a0:0\r\n' 3640 8675 9447 5590 "$1" $(($1 % 256)) $(($1 * 100)); }
+feed_serial() {
+  stty -F /dev/ttyGS0 raw -echo
+  for ((i = 0; i < 3000; ++i)); do trek_line $i; sleep 0.1; done >/dev/ttyGS0
+}
+start_serial_feed() { feed_serial & serial_feed=$!; }
+stop_serial_feed() { kill "$serial_feed" 2>/dev/null; wait "$serial_feed" 2>/dev/null; }
+
+start_can_feed() { canplayer -l i -I /out/guest/can.log vcan0=vcan0 & can_feed=$!; }
+stop_can_feed() { kill "$can_feed" 2>/dev/null; wait "$can_feed" 2>/dev/null; }
+
+write_configuration() {
+  mkdir -p /etc/locusd
+  sed "s#@SERIAL@#$(usb_serial)#" configuration.yaml >/etc/locusd/locusd.yaml
+}
+
+input_field() { # input_field NAME FIELD: of one input, as locus says it
+  locus sources --json | python3 -c '
+import json, sys
+inputs = {i["name"]: i for i in json.load(sys.stdin)["inputs"]}
+print(inputs.get(sys.argv[1], {}).get(sys.argv[2], ""))' "$1" "$2"
+}
+input_is() { [ "$(input_field "$1" "$2")" = "$3" ]; }
+main_pid() { systemctl show -p MainPID --value locusd; }
