@@ -3,7 +3,7 @@
 check_30_usb_unplug_is_noticed() {
   stop_serial_feed
   unplug_usb_serial
-  within 15 input_is trek state opening && [ "$(systemctl is-active locusd)" = active ]
+  within 15 input_is trek state waiting && [ "$(systemctl is-active locusd)" = active ]
 }
 
 check_31_usb_replug_brings_poses_again() {
@@ -23,7 +23,7 @@ more_can_frames_than() { [ "$(input_field can frames)" -gt "$1" ]; }
 
 check_33_can_interface_removed_and_made_again() {
   stop_can_feed; ip link del vcan0
-  within 15 input_is can state opening || return 1
+  within 15 input_is can state waiting || return 1
   ip link add dev vcan0 type vcan; ip link set vcan0 mtu 72 up
   within 15 input_is can state open || return 1
   start_can_feed
