@@ -1,1 +1,96 @@
 #include "config/load.h"
+#include "config/file_text.h"
+#include "config/names.h"
+#include "config/section.h"
+
+#include <algorithm>
+#include <array>
+
+namespace locus {
+namespace config {
+namespace {
+
+constexpr std::array<FlatSection, 4> flat{{
+    {"fusion", "The engine: how often, how late, how many.", fusion_options,
+     [](Settings& settings) -> void* { return &settings.engine.fusion; }},
+    {"publish", "The socket that clients read.", publish_options,
+     [](Settings& settings) -> void* { return &settings.publish; }},
+    {"log", "What is written to the journal.", log_options, [](Settings& settings) -> void* { return &settings.log; }},
+    {"realtime", "How the fusion thread is scheduled.", realtime_options,
+     [](Settings& settings) -> void* { return &settings.realtime; }},
+}};
+
+constexpr std::array<std::string_view, 8> section_names{"site",       "targets", "inputs", "fusion",
+                                                        "estimators", "publish", "log",    "realtime"};
+
+/// An absent section reads like an empty one.
+const YamlNode& section(const YamlNode& root, std::string_view name) {
+    static const YamlNode absent;
+    const YamlNode* found = root.find(name);
+    return found ? *found : absent;
+}
+
+void check_limits_between(const YamlNode& root, const Settings& settings, Problems& problems) {
+    constexpr std::size_t longest_socket_path = 107; // sockaddr_un::sun_path less its terminating zero
+    const auto& fusion = settings.engine.fusion;
+    find_named(section(root, "fusion").find("estimator"), "estimator", estimator_table(), problems);
+    if (settings.publish.socket.size() > longest_socket_path)
+        problems.add(section(root, "publish").find("socket")->mark, "socket is longer than the 107 letters that the "
+                                                                    "kernel takes");
+    if (settings.engine.targets.size() > static_cast<std::size_t>(fusion.max_targets))
+        problems.add(section(root, "targets").mark, std::to_string(settings.engine.targets.size()) +
+                                                        " targets are listed, but fusion.max_targets is " +
+                                                        std::to_string(fusion.max_targets));
+}
+
+Settings read_sections(const YamlNode& root, Problems& problems) {
+    Settings settings;
+    if (!read_map(root, {"the file", section_names}, {}, problems)) return settings;
+    read_site(section(root, "site"), settings.engine.site, problems);
+    read_targets(section(root, "targets"), settings.engine.targets, problems);
+    read_inputs(section(root, "inputs"), settings.inputs, problems);
+    read_estimators(section(root, "estimators"), settings.engine.estimators, problems);
+    for (const auto& one : flat) {
+        const BoundOptions table[]{{one.rows, one.settings(settings)}};
+        read_map(section(root, one.name), {one.name}, table, problems);
+    }
+    check_limits_between(root, settings, problems);
+    return settings;
+}
+
+Settings read_text(std::string_view yaml, Problems& problems) {
+    const auto root = parse_yaml(yaml, problems);
+    if (!root) return {};
+    if (root->kind == YamlNode::Kind::nothing) {
+        problems.add({}, "the file is empty; it needs at least a site with anchors and one input");
+        return {};
+    }
+    return read_sections(*root, problems);
+}
+
+} // namespace
+
+std::span<const FlatSection> flat_sections() { return flat; }
+
+} // namespace config
+
+LoadResult load_settings_text(std::string_view yaml, const std::string& file_name) {
+    config::Problems problems(file_name);
+    LoadResult result;
+    Settings settings = config::read_text(yaml, problems);
+    if (problems.empty()) result.settings = std::move(settings);
+    result.problems = problems.take();
+    return result;
+}
+
+LoadResult load_settings(const std::string& path) {
+    std::string error;
+    const auto text = config::read_file(path, error);
+    if (text) return load_settings_text(*text, path);
+    LoadResult result;
+    result.readable = false;
+    result.problems.push_back({path, 0, 0, error});
+    return result;
+}
+
+} // namespace locus

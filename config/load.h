@@ -21,6 +21,7 @@ struct ConfigProblem {
 struct LoadResult {
     std::optional<Settings> settings; ///< empty when there is any problem
     std::vector<ConfigProblem> problems;
+    bool readable = true; ///< false: the file could not be opened at all
 };
 
 LoadResult load_settings(const std::string& path);

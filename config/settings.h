@@ -22,9 +22,42 @@ struct InputSettings {
     bool enabled = true;
 };
 
+namespace detail {
+template <class Row>
+std::string name_of(const Row* row) {
+    return row ? std::string(row->name) : "";
+}
+} // namespace detail
+
 /// The rows that stand in front of the transport's and the decoder's own.
 inline constexpr std::array input_options{
-    required_option<&InputSettings::name>("name", "Name that people see and recordings carry: no blanks."),
+    required_option<&InputSettings::name>("name", "Name that people see and recordings carry, one word."),
+    OptionRow{"transport",
+              "",
+              -no_limit,
+              no_limit,
+              "Where it comes from: one of the transports below.",
+              {},
+              true,
+              [](const void* input) -> OptionValue {
+                  return detail::name_of(static_cast<const InputSettings*>(input)->transport);
+              },
+              [](void* input, const OptionValue& name) {
+                  static_cast<InputSettings*>(input)->transport = find_transport(std::get<std::string>(name));
+              }},
+    OptionRow{"decoder",
+              "",
+              -no_limit,
+              no_limit,
+              "What it speaks: one of the decoders below.",
+              {},
+              true,
+              [](const void* input) -> OptionValue {
+                  return detail::name_of(static_cast<const InputSettings*>(input)->decoder);
+              },
+              [](void* input, const OptionValue& name) {
+                  static_cast<InputSettings*>(input)->decoder = find_decoder(std::get<std::string>(name));
+              }},
     option<&InputSettings::delay_s>("delay_s", "s", 0, 10, "Time from the sample to the wire, taken off every stamp."),
     option<&InputSettings::enabled>("enabled", "Whether the input is opened at all."),
 };

@@ -1,0 +1,71 @@
+// Section "inputs": each a transport and a decoder, whose options stand side by side in the input's map.
+#include "config/names.h"
+#include "config/print_options.h"
+#include "config/section.h"
+#include "config/uniques.h"
+
+#include <algorithm>
+
+namespace locus::config {
+namespace {
+
+constexpr std::string_view wire_name(Wire wire) { return wire == Wire::can ? "CAN frames" : "a stream of bytes"; }
+
+/// Recordings and the socket carry the name as one word.
+void check_name(const YamlNode& item, const InputSettings& input, Uniques& names, Problems& problems) {
+    if (input.name.empty()) return;
+    names.check(input.name, item.mark, problems);
+    if (input.name.size() > 64 || !std::ranges::all_of(input.name, [](unsigned char c) { return c > ' '; }))
+        problems.add(item.find("name")->mark, "name must be one word of at most 64 letters");
+}
+
+void check_wire(const YamlNode& item, const InputSettings& input, Problems& problems) {
+    if (!input.transport || !input.decoder || input.transport->carries(input.decoder->wire)) return;
+    problems.add(item.find("decoder")->mark, "decoder " + std::string(input.decoder->name) + " needs " +
+                                                 std::string(wire_name(input.decoder->wire)) + ", but transport " +
+                                                 std::string(input.transport->name) + " gives " +
+                                                 std::string(wire_name(*input.transport->wire)));
+}
+
+void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {
+    input.transport = find_named(item.find("transport"), "transport", transport_table(), problems);
+    input.decoder = find_named(item.find("decoder"), "decoder", decoder_table(), problems);
+    if (input.transport) input.transport_settings = input.transport->options.make();
+    if (input.decoder) input.decoder_settings = input.decoder->options.make();
+}
+
+void read_input(const YamlNode& item, InputSettings& input, Problems& problems) {
+    find_rows(item, input, problems);
+    std::vector<BoundOptions> tables{{input_options, &input}};
+    if (input.transport) tables.push_back({input.transport->options.rows, input.transport_settings.get()});
+    if (input.decoder) tables.push_back({input.decoder->options.rows, input.decoder_settings.get()});
+    // An option of a device that was not found is no unknown key.
+    const bool all_found = input.transport && input.decoder;
+    (all_found ? read_map : read_known_keys)(item, {"input"}, tables, problems);
+}
+
+} // namespace
+
+void read_inputs(const YamlNode& node, std::vector<InputSettings>& inputs, Problems& problems) {
+    Uniques names("input with the name");
+    for (const auto& item : list_items(node, max_inputs, problems)) {
+        InputSettings& input = inputs.emplace_back();
+        read_input(item, input, problems);
+        check_name(item, input, names, problems);
+        check_wire(item, input, problems);
+    }
+}
+
+std::string print_inputs(const std::vector<InputSettings>& inputs) {
+    if (inputs.empty()) return "inputs: []\n";
+    std::string text = "inputs:\n";
+    for (const auto& input : inputs) {
+        const ShownOptions tables[]{{input_options, &input},
+                                    {input.transport->options.rows, input.transport_settings.get()},
+                                    {input.decoder->options.rows, input.decoder_settings.get()}};
+        text += print_block(tables, 2, true);
+    }
+    return text;
+}
+
+} // namespace locus::config

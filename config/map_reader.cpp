@@ -1,0 +1,70 @@
+#include "config/map_reader.h"
+#include "config/nearest.h"
+#include "config/plain_text.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace locus::config {
+namespace {
+
+using Tables = std::span<const BoundOptions>;
+
+bool is_map(const YamlNode& node, const MapKind& kind, Problems& problems) {
+    if (node.kind == YamlNode::Kind::map || node.kind == YamlNode::Kind::nothing) return true;
+    problems.add(node.mark, std::string(kind.name) + " must be a map of \"key: value\" lines");
+    return false;
+}
+
+std::vector<std::string_view> known_keys(const MapKind& kind, Tables tables) {
+    std::vector<std::string_view> keys(kind.other_keys.begin(), kind.other_keys.end());
+    for (const auto& table : tables)
+        for (const auto& row : table.rows) keys.push_back(row.name);
+    return keys;
+}
+
+void find_unknown_keys(const YamlNode& map, const MapKind& kind, Tables tables, Problems& problems) {
+    const auto known = known_keys(kind, tables);
+    for (const auto& child : map.children)
+        if (std::ranges::find(known, child.key) == known.end())
+            problems.add(child.key_mark, std::string(kind.name) + " has no setting \"" + shown(child.key) + "\"" +
+                                             hint(child.key, known));
+}
+
+void read_row(const YamlNode& map, const MapKind& kind, const OptionRow& row, void* settings, Problems& problems) {
+    const YamlNode* node = map.find(row.name);
+    if (!node && row.required)
+        problems.add(map.mark,
+                     std::string(kind.name) + " lacks \"" + std::string(row.name) + "\": " + std::string(row.about));
+    if (!node) return;
+    if (const auto value = read_value(*node, row, row.get(settings), problems)) row.set(settings, *value);
+}
+
+} // namespace
+
+bool read_known_keys(const YamlNode& node, const MapKind& kind, Tables tables, Problems& problems) {
+    if (!is_map(node, kind, problems)) return false;
+    for (const auto& table : tables)
+        for (const auto& row : table.rows) read_row(node, kind, row, table.settings, problems);
+    return true;
+}
+
+bool read_map(const YamlNode& node, const MapKind& kind, Tables tables, Problems& problems) {
+    if (!read_known_keys(node, kind, tables, problems)) return false;
+    find_unknown_keys(node, kind, tables, problems);
+    return true;
+}
+
+std::span<const YamlNode> list_items(const YamlNode& node, std::size_t longest, Problems& problems) {
+    if (node.kind == YamlNode::Kind::nothing) return {};
+    if (node.kind != YamlNode::Kind::list) {
+        problems.add(node.mark, node.key + " must be a list, each item with \"- \" in front");
+        return {};
+    }
+    if (node.children.size() > longest)
+        problems.add(node.mark, node.key + " has " + std::to_string(node.children.size()) + " items; at most " +
+                                    std::to_string(longest) + " are allowed");
+    return std::span(node.children).first(std::min(longest, node.children.size()));
+}
+
+} // namespace locus::config

@@ -1,0 +1,19 @@
+// Settings as a file that loads to the same settings.
+#include "config/print_options.h"
+#include "config/section.h"
+
+namespace locus {
+
+std::string print_settings(const Settings& settings) {
+    using namespace config;
+    std::string text = print_site(settings.engine.site) + print_targets(settings.engine.targets) +
+                       print_inputs(settings.inputs) + print_estimators(settings.engine.estimators);
+    Settings copy = settings; // FlatSection reaches in for the loader as well, which writes
+    for (const auto& section : flat_sections()) {
+        const ShownOptions table[]{{section.rows, section.settings(copy)}};
+        text += std::string(section.name) + ":\n" + print_block(table, 2);
+    }
+    return text;
+}
+
+} // namespace locus

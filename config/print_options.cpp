@@ -1,0 +1,34 @@
+#include "config/print_options.h"
+#include "config/value.h"
+
+namespace locus::config {
+namespace {
+
+/// "name: value"; empty when the value is not set.
+std::string print_row(const OptionRow& row, const void* settings) {
+    const std::string value = to_yaml(row.get(settings));
+    return value.empty() ? "" : std::string(row.name) + ": " + value;
+}
+
+} // namespace
+
+std::string print_block(std::span<const ShownOptions> tables, std::size_t indent, bool list_item) {
+    std::string lines;
+    for (const auto& table : tables)
+        for (const auto& row : table.rows)
+            if (const std::string line = print_row(row, table.settings); !line.empty()) {
+                const bool dash = list_item && lines.empty();
+                lines += std::string(indent, ' ') + (dash ? "- " : list_item ? "  " : "") + line + "\n";
+            }
+    return lines;
+}
+
+std::string print_flow(const ShownOptions& table) {
+    std::string entries;
+    for (const auto& row : table.rows)
+        if (const std::string entry = print_row(row, table.settings); !entry.empty())
+            entries += (entries.empty() ? "" : ", ") + entry;
+    return "{" + entries + "}";
+}
+
+} // namespace locus::config

@@ -1,0 +1,29 @@
+// Finds the second one of something that must be there once.
+#pragma once
+
+#include "config/problems.h"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace locus::config {
+
+class Uniques {
+  public:
+    /// `what` as in "a second anchor with the name A0".
+    explicit Uniques(std::string what) : what_(std::move(what)) {}
+
+    void check(const std::string& value, Mark mark, Problems& problems) {
+        const auto [first, is_new] = first_lines_.try_emplace(value, mark.line);
+        if (!is_new)
+            problems.add(mark,
+                         "a second " + what_ + " " + value + "; the first is in line " + std::to_string(first->second));
+    }
+
+  private:
+    std::string what_;
+    std::map<std::string, int> first_lines_;
+};
+
+} // namespace locus::config
