@@ -15,4 +15,8 @@ inline Timestamp read_clock(clockid_t clock) {
 
 inline Timestamp monotonic_now() { return read_clock(CLOCK_MONOTONIC); }
 
+/// A packet's receive stamp: whole microseconds, because a recording holds no more, and a replay must see what the live
+/// run saw.
+constexpr Timestamp receive_stamp(Timestamp time) { return std::chrono::floor<std::chrono::microseconds>(time); }
+
 } // namespace locus

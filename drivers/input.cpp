@@ -50,7 +50,8 @@ ReadStatus Input::read_until_lost(const std::stop_token& stop) {
     ReadStatus result = ReadStatus::ok;
     while (result == ReadStatus::ok && !stop.stop_requested()) {
         result = parts_.transport->read(*this, read_timeout);
-        watch_transport();
+        copy_counters();
+        if (result == ReadStatus::ok) tell_trouble();
     }
     if (result == ReadStatus::lost) fail(InputEvent::Kind::lost, parts_.transport->last_error());
     parts_.transport->close();
@@ -69,9 +70,12 @@ void Input::fail(InputEvent::Kind kind, std::string_view text) {
     emit(kind, text);
 }
 
-void Input::watch_transport() {
+void Input::copy_counters() {
     status_.kernel_dropped.store(parts_.transport->kernel_dropped(), std::memory_order_relaxed);
     status_.wire_errors.store(parts_.transport->wire_errors(), std::memory_order_relaxed);
+}
+
+void Input::tell_trouble() {
     const std::string_view trouble = parts_.transport->trouble();
     if (trouble == told_) return;
     told_ = trouble;

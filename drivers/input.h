@@ -62,7 +62,8 @@ class Input : private PacketSink, private MeasurementSink {
     bool open();
     ReadStatus read_until_lost(const std::stop_token& stop);
     void fail(InputEvent::Kind kind, std::string_view text);
-    void watch_transport();
+    void copy_counters();
+    void tell_trouble();
     void emit(InputEvent::Kind kind, std::string_view text) const;
 
     void packet(const Packet& packet) override;

@@ -15,15 +15,6 @@ void append_id(std::string& text, std::uint32_t id) {
     for (int shift = long_form ? 28 : 8; shift >= 0; shift -= 4) text += hex_digits[(shown >> shift) & 0xF];
 }
 
-/// The number of digits is the kind of the id: 3 standard, 8 extended or error frame.
-bool parse_id(std::string_view hex, std::uint32_t& id) {
-    if ((hex.size() != 3 && hex.size() != 8) || !parse_hex_number(hex, id)) return false;
-    if (hex.size() == 3) return id <= CAN_SFF_MASK;
-    if (id > widest_id) return false;
-    if (!(id & CAN_ERR_FLAG)) id |= CAN_EFF_FLAG;
-    return true;
-}
-
 bool parse_fd(std::string_view text, LogRecord& record, std::string& error) {
     std::uint32_t flags = 0;
     if (!parse_hex_number(text.substr(0, 1), flags)) {
@@ -57,6 +48,14 @@ bool parse_classic(std::string_view text, LogRecord& record, std::string& error)
 
 } // namespace
 
+bool parse_can_id(std::string_view hex, std::uint32_t& id) {
+    if ((hex.size() != 3 && hex.size() != 8) || !parse_hex_number(hex, id)) return false;
+    if (hex.size() == 3) return id <= CAN_SFF_MASK;
+    if (id > widest_id) return false;
+    if (!(id & CAN_ERR_FLAG)) id |= CAN_EFF_FLAG;
+    return true;
+}
+
 void append_can_text(std::string& text, const Packet& packet) {
     append_id(text, packet.can_id);
     text += '#';
@@ -73,7 +72,7 @@ void append_can_text(std::string& text, const Packet& packet) {
 bool parse_can_text(std::string_view text, LogRecord& record, std::string& error) {
     const std::size_t hash = text.find('#');
     record.wire = Wire::can;
-    if (hash == text.npos || !parse_id(text.substr(0, hash), record.can_id)) {
+    if (hash == text.npos || !parse_can_id(text.substr(0, hash), record.can_id)) {
         error = "the CAN id before # has neither 3 hex digits up to 7FF nor 8";
         return false;
     }

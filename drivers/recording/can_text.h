@@ -14,4 +14,7 @@ void append_can_text(std::string& text, const Packet& packet);
 /// Fills the CAN fields and the data of `record`. False, with a sentence, when it is no such frame.
 bool parse_can_text(std::string_view text, LogRecord& record, std::string& error);
 
+/// The number of hex digits is the kind of the id: 3 standard, 8 extended (CAN_EFF_FLAG is set) or error frame.
+bool parse_can_id(std::string_view hex, std::uint32_t& id);
+
 } // namespace locus

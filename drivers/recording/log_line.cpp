@@ -14,11 +14,10 @@ constexpr std::string_view serial_mark = "serial#";
 constexpr std::string_view blank = " \t\r\n";
 constexpr std::size_t max_serial_bytes = 4096;
 
-/// canplayer reads the fraction as a number of microseconds: on CAN lines six digits, never nine.
-std::string stamp_text(const Packet& packet) {
+std::string stamp_text(Timestamp time) {
     std::string text = "(";
-    append_seconds(text, packet.time);
-    if (packet.wire == Wire::can) text.resize(text.size() - 3);
+    append_seconds(text, time);
+    text.resize(text.size() - 3); // nanoseconds: see log_line.h
     return text + ") ";
 }
 
@@ -62,7 +61,7 @@ bool parse_suffix(std::string_view rest, LogRecord& record, std::string& error) 
 } // namespace
 
 std::string to_log_line(const std::string& input, const Packet& packet) {
-    std::string text = stamp_text(packet) + input + ' ';
+    std::string text = stamp_text(packet.time) + input + ' ';
     if (packet.wire == Wire::can) {
         append_can_text(text, packet);
     } else {

@@ -1,8 +1,8 @@
 // One line of a *.log recording. CAN lines are candump's own: "(1700000000.123456) can0 123#DEADBEEF"; serial lines are
-// "(seconds.nanoseconds) <input> serial#<hex> [<nanoseconds per byte>]": with the time of a byte, where the baud rate
-// is known, a replay gives the same times of frames inside a chunk as the live run. Stamps of 6 or 9 fraction digits
-// are read; written are 6 on CAN lines (canplayer takes the fraction for microseconds, however long it is) and 9 on
-// serial lines. The can transport stamps in whole microseconds, so nothing is lost.
+// "(seconds.microseconds) <input> serial#<hex> [<nanoseconds per byte>]": with the time of a byte, where the baud rate
+// is known, a replay gives the same times of frames inside a chunk as the live run. Six fraction digits are written, on
+// serial lines too: canplayer (2020.11) gives up on a file that has a line with more. The transports stamp in whole
+// microseconds, so nothing is lost. Nine digits are read as well.
 #pragma once
 
 #include "drivers/packet.h"

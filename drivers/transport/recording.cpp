@@ -37,7 +37,7 @@ class Recording : public Transport {
     explicit Recording(const RecordingSettings& settings) : settings_{settings} {}
 
     bool open() override {
-        start_ = monotonic_now();
+        start_ = receive_stamp(monotonic_now());
         if (rewind()) return true;
         if (error_.empty()) error_ = "'" + settings_.path + "' has no line of input '" + settings_.input + "'";
         return false;
@@ -69,7 +69,7 @@ class Recording : public Transport {
     }
 
     bool start_again() {
-        start_ = std::max(monotonic_now(), last_due_) + pause_between_loops;
+        start_ = receive_stamp(std::max(monotonic_now(), last_due_) + pause_between_loops);
         return settings_.loop && rewind();
     }
 

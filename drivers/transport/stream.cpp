@@ -41,7 +41,7 @@ std::string open_sentence(const std::string& path, std::string_view kind, int re
 ReadStatus StreamTransport::read(PacketSink& sink, Duration timeout) {
     pollfd waiting{fd_.get(), POLLIN, 0};
     const int ready = ::poll(&waiting, 1, to_ms(timeout));
-    const Timestamp woken = monotonic_now();
+    const Timestamp woken = receive_stamp(monotonic_now());
     if (ready <= 0) return ready == 0 || errno == EINTR ? ReadStatus::ok : lost(std::strerror(errno));
     if (waiting.revents & POLLIN) return take(sink, woken);
     return lost("the other end hung up or it was unplugged");

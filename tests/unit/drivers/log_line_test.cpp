@@ -97,8 +97,7 @@ LogRecord any_record() {
     LogRecord record;
     record.input = "in" + std::to_string(*rc::gen::inRange(0, 99));
     const bool can = *rc::gen::arbitrary<bool>();
-    const std::int64_t step = can ? 1000 : 1;
-    record.time = timestamp_from_ns(*rc::gen::inRange<std::int64_t>(0, 8'999'999'999'000'000'000 / step) * step);
+    record.time = timestamp_from_ns(*rc::gen::inRange<std::int64_t>(0, 8'999'999'999'000'000) * 1000);
     std::size_t longest = 4096;
     if (!can) record.byte_time = Duration{*rc::gen::arbitrary<std::uint32_t>()};
     if (can) {
@@ -138,8 +137,8 @@ TEST(LogLine, IsWrittenAsCandumpWritesIt) {
     for (const std::string line :
          {"(1698765432.123456) can0 0AA#28812881287D2885", "(1698765432.124001) can0 10EBFF80#0102010007000000",
           "(1698765432.125000) can0 7DF#R", "(1698765432.126000) can0 123##311223344556677889900AABB",
-          "(1698765432.127000) can0 20000004#0008000000000000", "(12.000000345) hall serial#6D630D0A",
-          "(12.000000345) hall serial#6D630D0A 86806"}) {
+          "(1698765432.127000) can0 20000004#0008000000000000", "(12.000345) hall serial#6D630D0A",
+          "(12.000345) hall serial#6D630D0A 86806"}) {
         const LogRecord record = parse(line);
         EXPECT_EQ(to_log_line(record.input, record.packet()), line);
     }

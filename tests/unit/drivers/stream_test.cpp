@@ -49,7 +49,7 @@ TEST(Pty, BytesPassUntouchedBothWays) {
     device.send(wire);
     ASSERT_EQ(read_bytes(*pty, sink, wire.size()), ReadStatus::ok);
     EXPECT_EQ(sink.text, wire);
-    EXPECT_GE(sink.kept.front().packet.time, before);
+    EXPECT_GE(sink.kept.front().packet.time, receive_stamp(before));
     EXPECT_LE(sink.kept.back().packet.time, monotonic_now());
 
     ASSERT_TRUE(pty->write(std::vector<std::uint8_t>{'d', '\n', 0}));
