@@ -1,5 +1,7 @@
 #include "daemon/socket/picture.h"
 
+#include "daemon/socket/pose_line.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,20 +35,16 @@ const TargetView& Picture::take(const PoseItem& item) {
     TargetView& view = targets_[item.pose.target];
     const auto before = resets_before_.find(item.pose.target);
     view.resets_before = before == resets_before_.end() ? 0 : before->second;
+    if (is_publishable(view.pose)) view.previous = view.pose.estimate.time;
     view.pose = item.pose;
     return view;
 }
 
-std::optional<Exclusion> Picture::take(const SourceItem& item) {
+void Picture::take(const SourceItem& item) {
     follow(item.generation);
-    if (item.index >= item.count) return {};
-    if (sources_.size() != item.count) sources_.resize(item.count);
-    AidStatus& status = sources_[item.index];
-    const Exclusion before = status.last_verdict.reason;
-    const bool same_source = status.kind == item.status.kind && status.source == item.status.source;
-    status = item.status;
-    if (!same_source && before != Exclusion::not_seen_yet) return {};
-    return before == status.last_verdict.reason ? std::nullopt : std::optional{before};
+    if (item.index >= item.count) return;
+    sources_.resize(item.count);
+    sources_[item.index] = item.status;
 }
 
 void Picture::take(const TickItem& item) {

@@ -14,6 +14,7 @@ namespace locus {
 
 struct TargetView {
     Pose pose;
+    Timestamp previous{};            ///< time of the pose that went out before this one
     std::uint32_t resets_before = 0; ///< of earlier engines: what clients see never goes back
     std::uint32_t reset_count() const { return resets_before + pose.estimate.reset_count; }
 };
@@ -29,9 +30,7 @@ class Picture {
     /// The view after the pose went in.
     const TargetView& take(const PoseItem& item);
 
-    /// The source's reason before, when it has another one now.
-    std::optional<Exclusion> take(const SourceItem& item);
-
+    void take(const SourceItem& item);
     void take(const TickItem& item);
 
     const std::map<Address, TargetView>& targets() const { return targets_; }
