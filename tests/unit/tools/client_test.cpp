@@ -19,19 +19,19 @@ using tools::DaemonError;
 
 constexpr const char* status_line = "{\"class\":\"STATUS\",\"working\":true}\n";
 
-std::string failure(const std::string& path) {
+std::string failure(const std::string& path, std::chrono::milliseconds patience = 5s) {
     try {
-        Client client(path, 50ms);
+        Client client(path, patience);
     } catch (const DaemonError& error) {
         return error.what();
     }
     return "no failure";
 }
 
-std::string failure_of_asking(FakeDaemon::Answers answers) {
+std::string failure_of_asking(FakeDaemon::Answers answers, std::chrono::milliseconds patience = 5s) {
     const FakeDaemon daemon(answers);
-    Client client(daemon.path(), 50ms);
     try {
+        Client client(daemon.path(), patience);
         client.ask("?STATUS;", "STATUS");
     } catch (const DaemonError& error) {
         return error.what();
@@ -84,7 +84,7 @@ TEST(Client, RefusesWhoeverIsNotLocusd) {
     EXPECT_THAT(failure(FakeDaemon({}, "{\"class\":\"WATCH\"}\n").path()), HasSubstr("greets with WATCH"));
     EXPECT_THAT(failure(FakeDaemon({}, "[1,2]\n").path()), HasSubstr("is not locusd"));
     EXPECT_THAT(failure(FakeDaemon({}, "{\"class\":7}\n").path()), HasSubstr("is not locusd"));
-    EXPECT_THAT(failure(FakeDaemon({}, "").path()), HasSubstr("does not answer"));
+    EXPECT_THAT(failure(FakeDaemon({}, "").path(), 50ms), HasSubstr("does not answer"));
 }
 
 TEST(Client, RefusesAnotherMajorVersion) {
@@ -113,7 +113,8 @@ TEST(Client, SeesTheDaemonCloseInsteadOfAnswering) {
 }
 
 TEST(Client, GivesUpOnAnAnswerThatDoesNotCome) {
-    EXPECT_THAT(failure_of_asking({{"?STATUS", "{\"class\":\"POSE\"}\n{\"class\":"}}), HasSubstr("does not answer"));
+    EXPECT_THAT(failure_of_asking({{"?STATUS", "{\"class\":\"POSE\"}\n{\"class\":"}}, 50ms),
+                HasSubstr("does not answer"));
 }
 
 TEST(Client, RefusesAnAnswerThatIsNoJson) {
