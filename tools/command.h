@@ -21,5 +21,7 @@ void add_reload(CLI::App& root, int& exit_code);
 
 // Of files.
 void add_evaluate(CLI::App& root, int& exit_code);
+// Of the devices themselves.
+void add_record(CLI::App& root, int& exit_code);
 
 } // namespace locus

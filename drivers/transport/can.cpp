@@ -2,8 +2,8 @@
 // clock. An interface that goes down, off the bus or away is a loss like a pulled cable; it is bound anew when it is
 // back.
 #include "drivers/clock.h"
+#include "drivers/transport/can_batch.h"
 #include "drivers/transport/can_filter.h"
-#include "drivers/transport/can_frame.h"
 #include "drivers/transport/can_health.h"
 #include "drivers/transport/can_socket.h"
 #include "drivers/transport/can_stamps.h"
@@ -53,34 +53,6 @@ void ask_for_stamps_and_errors(int fd) {
     set(fd, SOL_SOCKET, SO_RCVBUFFORCE, receive_buffer_bytes); // past the system's limit, where allowed
     set(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK});
 }
-
-/// Room for one recvmmsg().
-class Batch {
-  public:
-    static constexpr std::size_t size = 32;
-
-    int receive(int fd) {
-        for (std::size_t i = 0; i < size; ++i) {
-            vectors_[i] = {&frames_[i], sizeof frames_[i]};
-            messages_[i] = {};
-            messages_[i].msg_hdr.msg_iov = &vectors_[i];
-            messages_[i].msg_hdr.msg_iovlen = 1;
-            messages_[i].msg_hdr.msg_control = controls_[i].data();
-            messages_[i].msg_hdr.msg_controllen = controls_[i].size();
-        }
-        return ::recvmmsg(fd, messages_.data(), size, MSG_DONTWAIT, nullptr);
-    }
-    std::optional<Packet> packet(std::size_t i) const { return packet_from_can(frames_[i], messages_[i].msg_len); }
-    ControlData control(std::size_t i) const { return read_control(messages_[i].msg_hdr); }
-
-  private:
-    struct alignas(cmsghdr) Control : std::array<std::byte, 256> {};
-
-    std::array<canfd_frame, size> frames_;
-    std::array<Control, size> controls_;
-    std::array<iovec, size> vectors_;
-    std::array<mmsghdr, size> messages_;
-};
 
 class Can : public Transport {
   public:
@@ -158,7 +130,7 @@ class Can : public Transport {
     CanSocket socket_;
     CanHealth health_;
     AdapterClock adapter_clock_;
-    Batch batch_;
+    CanBatch batch_;
     std::uint32_t dropped_here_ = 0; ///< as this socket counts
     std::uint64_t dropped_ = 0;      ///< over all sockets
     std::string error_;

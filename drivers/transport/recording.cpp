@@ -39,7 +39,8 @@ class Recording : public Transport {
     bool open() override {
         start_ = receive_stamp(monotonic_now());
         if (rewind()) return true;
-        if (error_.empty()) error_ = "'" + settings_.path + "' has no line of input '" + settings_.input + "'";
+        const std::string wanted = settings_.input.empty() ? "" : " of input '" + settings_.input + "'";
+        if (error_.empty()) error_ = "'" + settings_.path + "' has no line" + wanted + " that can be played";
         return false;
     }
     void close() override { file_.close(); }

@@ -75,7 +75,8 @@ std::string open_sentence(const std::string& path) {
         return "no permission for '" + path + "': add this user to the group that `ls -lL` shows (dialout)";
     case EBUSY:
     case EAGAIN:
-        return "'" + path + "' is in use by another program: `fuser -v " + path + "` says which";
+        return "'" + path + "' is in use by another program, maybe a running locusd: `fuser -v " + path +
+               "` says which";
     default:
         return "'" + path + "' cannot be opened: " + std::strerror(errno);
     }

@@ -30,7 +30,7 @@ std::string open_sentence(const std::string& path, std::string_view kind, int re
     case EPERM:
         return "no permission to read and write " + device + ": see `ls -l` and the groups of this user";
     case EBUSY:
-        return device + " is in use by another program: `fuser -v " + path + "` says which";
+        return device + " is in use by another program, maybe a running locusd: `fuser -v " + path + "` says which";
     default:
         return device + " cannot be opened: " + std::strerror(reason);
     }
