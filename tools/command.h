@@ -19,4 +19,11 @@ void add_watch(CLI::App& root, int& exit_code);
 void add_wait(CLI::App& root, int& exit_code);
 void add_reload(CLI::App& root, int& exit_code);
 
+// Of settings files.
+void add_check(CLI::App& root, int& exit_code);
+void add_config(CLI::App& root, int& exit_code);
+
+// Of the command line itself.
+void add_completion(CLI::App& root, int& exit_code);
+
 } // namespace locus

@@ -11,6 +11,9 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_watch,
     locus::add_wait,
     locus::add_reload,
+    locus::add_check,
+    locus::add_config,
+    locus::add_completion,
 });
 }
 
