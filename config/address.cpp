@@ -1,6 +1,7 @@
 #include "config/address.h"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace locus::config {
@@ -39,11 +40,7 @@ std::optional<Address> parse_address(std::string_view text) {
 }
 
 std::string to_text(Address address) {
-    const bool decimal = number(address) < 256;
-    std::array<char, 24> digits{};
-    const auto [end, error] =
-        std::to_chars(digits.data(), digits.data() + digits.size(), number(address), decimal ? 10 : 16);
-    return (decimal ? "" : "0x") + std::string(digits.data(), end);
+    return number(address) < 256 ? fmt::format("{}", number(address)) : fmt::format("0x{:x}", number(address));
 }
 
 } // namespace locus::config

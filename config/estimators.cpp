@@ -3,14 +3,16 @@
 #include "config/print_options.h"
 #include "config/section.h"
 
+#include <fmt/format.h>
+
 namespace locus::config {
 namespace {
 
 void find_unknown_estimators(const YamlNode& node, Problems& problems) {
     for (const auto& child : node.children)
         if (!find_estimator(child.key))
-            problems.add(child.key_mark, "there is no estimator \"" + shown(child.key) + "\"" +
-                                             hint(child.key, names_of(estimator_table())));
+            problems.add(child.key_mark, fmt::format("there is no estimator \"{}\"{}", shown(child.key),
+                                                     hint(child.key, names_of(estimator_table()))));
 }
 
 } // namespace
@@ -32,7 +34,7 @@ std::string print_estimators(const std::vector<EstimatorSettings>& estimators) {
     std::string text;
     for (const auto& estimator : estimators) {
         const ShownOptions table[]{{estimator.row->options.rows, estimator.settings.get()}};
-        text += "  " + std::string(estimator.row->name) + ":\n" + print_block(table, 4);
+        text += fmt::format("  {}:\n{}", estimator.row->name, print_block(table, 4));
     }
     return text.empty() ? "estimators: {}\n" : "estimators:\n" + text;
 }

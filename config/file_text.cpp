@@ -1,6 +1,8 @@
 #include "config/file_text.h"
 #include "config/yaml_tree.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
 #include <pwd.h>
 #include <sys/stat.h>
@@ -32,18 +34,15 @@ std::string user_name() {
     passwd* found = nullptr;
     std::array<char, 4096> buffer{};
     getpwuid_r(geteuid(), &entry, buffer.data(), buffer.size(), &found);
-    const std::string number = "number " + std::to_string(geteuid());
-    return found ? "\"" + std::string(found->pw_name) + "\" (" + number + ")" : number;
+    return found ? fmt::format("\"{}\" (number {})", found->pw_name, geteuid()) : fmt::format("number {}", geteuid());
 }
 
 std::string why_not(const std::string& path, int error_number) {
     if (error_number == EACCES || error_number == EPERM)
-        return "user " + user_name() +
-               " may not read this file; change its owner or mode (chown, chmod), or run as "
-               "a user who may";
+        return fmt::format("user {} may not read this file; change its owner or mode (chown, chmod)", user_name());
     if (error_number == ENOENT) return "there is no such file";
-    if (error_number == EISDIR) return "this is a folder, not a file; try " + path + "/locusd.yaml";
-    return "this file cannot be read: " + std::generic_category().message(error_number);
+    if (error_number == EISDIR) return fmt::format("this is a folder, not a file; try {}/locusd.yaml", path);
+    return fmt::format("this file cannot be read: {}", std::generic_category().message(error_number));
 }
 
 /// False: errno says why.

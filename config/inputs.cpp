@@ -4,6 +4,8 @@
 #include "config/section.h"
 #include "config/uniques.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace locus::config {
@@ -21,10 +23,9 @@ void check_name(const YamlNode& item, const InputSettings& input, Uniques& names
 
 void check_wire(const YamlNode& item, const InputSettings& input, Problems& problems) {
     if (!input.transport || !input.decoder || input.transport->carries(input.decoder->wire)) return;
-    problems.add(item.find("decoder")->mark, "decoder " + std::string(input.decoder->name) + " needs " +
-                                                 std::string(wire_name(input.decoder->wire)) + ", but transport " +
-                                                 std::string(input.transport->name) + " gives " +
-                                                 std::string(wire_name(*input.transport->wire)));
+    problems.add(item.find("decoder")->mark,
+                 fmt::format("decoder {} needs {}, but transport {} gives {}", input.decoder->name,
+                             wire_name(input.decoder->wire), input.transport->name, wire_name(*input.transport->wire)));
 }
 
 void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {

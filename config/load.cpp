@@ -3,6 +3,8 @@
 #include "config/names.h"
 #include "config/section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -38,9 +40,8 @@ void check_limits_between(const YamlNode& root, const Settings& settings, Proble
         problems.add(section(root, "publish").find("socket")->mark, "socket is longer than the 107 letters that the "
                                                                     "kernel takes");
     if (settings.engine.targets.size() > static_cast<std::size_t>(fusion.max_targets))
-        problems.add(section(root, "targets").mark, std::to_string(settings.engine.targets.size()) +
-                                                        " targets are listed, but fusion.max_targets is " +
-                                                        std::to_string(fusion.max_targets));
+        problems.add(section(root, "targets").mark, fmt::format("{} targets are listed, but fusion.max_targets is {}",
+                                                                settings.engine.targets.size(), fusion.max_targets));
 }
 
 Settings read_sections(const YamlNode& root, Problems& problems) {

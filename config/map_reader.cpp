@@ -2,6 +2,8 @@
 #include "config/nearest.h"
 #include "config/plain_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -12,7 +14,7 @@ using Tables = std::span<const BoundOptions>;
 
 bool is_map(const YamlNode& node, const MapKind& kind, Problems& problems) {
     if (node.kind == YamlNode::Kind::map || node.kind == YamlNode::Kind::nothing) return true;
-    problems.add(node.mark, std::string(kind.name) + " must be a map of \"key: value\" lines");
+    problems.add(node.mark, fmt::format("{} must be a map of \"key: value\" lines", kind.name));
     return false;
 }
 
@@ -27,15 +29,14 @@ void find_unknown_keys(const YamlNode& map, const MapKind& kind, Tables tables, 
     const auto known = known_keys(kind, tables);
     for (const auto& child : map.children)
         if (std::ranges::find(known, child.key) == known.end())
-            problems.add(child.key_mark, std::string(kind.name) + " has no setting \"" + shown(child.key) + "\"" +
-                                             hint(child.key, known));
+            problems.add(child.key_mark, fmt::format("{} has no setting \"{}\"{}", kind.name, shown(child.key),
+                                                     hint(child.key, known)));
 }
 
 void read_row(const YamlNode& map, const MapKind& kind, const OptionRow& row, void* settings, Problems& problems) {
     const YamlNode* node = map.find(row.name);
     if (!node && row.required)
-        problems.add(map.mark,
-                     std::string(kind.name) + " lacks \"" + std::string(row.name) + "\": " + std::string(row.about));
+        problems.add(map.mark, fmt::format("{} lacks \"{}\": {}", kind.name, row.name, row.about));
     if (!node) return;
     if (const auto value = read_value(*node, row, row.get(settings), problems)) row.set(settings, *value);
 }
@@ -58,12 +59,12 @@ bool read_map(const YamlNode& node, const MapKind& kind, Tables tables, Problems
 std::span<const YamlNode> list_items(const YamlNode& node, std::size_t longest, Problems& problems) {
     if (node.kind == YamlNode::Kind::nothing) return {};
     if (node.kind != YamlNode::Kind::list) {
-        problems.add(node.mark, node.key + " must be a list, each item with \"- \" in front");
+        problems.add(node.mark, fmt::format("{} must be a list, each item with \"- \" in front", node.key));
         return {};
     }
     if (node.children.size() > longest)
-        problems.add(node.mark, node.key + " has " + std::to_string(node.children.size()) + " items; at most " +
-                                    std::to_string(longest) + " are allowed");
+        problems.add(node.mark,
+                     fmt::format("{} has {} items; at most {} are allowed", node.key, node.children.size(), longest));
     return std::span(node.children).first(std::min(longest, node.children.size()));
 }
 

@@ -5,6 +5,8 @@
 #include "config/plain_text.h"
 #include "config/yaml_tree.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +28,8 @@ auto find_named(const YamlNode* node, std::string_view what, const Table& table,
     for (const auto& row : table)
         if (row.name == node->text) found = &row;
     if (!found)
-        problems.add(node->mark, "there is no " + std::string(what) + " \"" + shown(node->text) + "\"" +
-                                     hint(node->text, names_of(table)));
+        problems.add(node->mark, fmt::format("there is no {} \"{}\"{}", what, shown(node->text),
+                                             hint(node->text, names_of(table))));
     return found;
 }
 

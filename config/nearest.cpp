@@ -1,5 +1,7 @@
 #include "config/nearest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -44,15 +46,9 @@ std::string_view nearest(std::string_view typed, std::span<const std::string_vie
 }
 
 std::string hint(std::string_view typed, std::span<const std::string_view> candidates) {
-    if (const auto best = nearest(typed, candidates); !best.empty())
-        return "; did you mean \"" + std::string(best) + "\"?";
+    if (const auto best = nearest(typed, candidates); !best.empty()) return fmt::format("; did you mean \"{}\"?", best);
     if (candidates.empty()) return "; none are known here";
-    std::string text = "; known here: ";
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (i > 0) text += ", ";
-        text += candidates[i];
-    }
-    return text;
+    return fmt::format("; known here: {}", fmt::join(candidates, ", "));
 }
 
 } // namespace locus::config

@@ -1,6 +1,8 @@
 #include "config/plain_text.h"
 #include "config/yaml_tree.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace locus::config {
@@ -46,7 +48,7 @@ std::size_t utf8_length(std::string_view text) {
 
 bool is_plain_text(std::string_view text, Problems& problems) {
     if (text.size() > max_file_bytes) {
-        problems.add({}, "the file is longer than " + std::to_string(max_file_bytes) + " bytes");
+        problems.add({}, fmt::format("the file is longer than {} bytes", max_file_bytes));
         return false;
     }
     for (std::size_t at = 0; at < text.size();) {

@@ -2,6 +2,8 @@
 #include "config/print_options.h"
 #include "config/section.h"
 
+#include <fmt/format.h>
+
 namespace locus {
 
 std::string print_settings(const Settings& settings) {
@@ -11,7 +13,7 @@ std::string print_settings(const Settings& settings) {
     Settings copy = settings; // FlatSection reaches in for the loader as well, which writes
     for (const auto& section : flat_sections()) {
         const ShownOptions table[]{{section.rows, section.settings(copy)}};
-        text += std::string(section.name) + ":\n" + print_block(table, 2);
+        text += fmt::format("{}:\n{}", section.name, print_block(table, 2));
     }
     return text;
 }

@@ -1,13 +1,15 @@
 #include "config/print_options.h"
 #include "config/value.h"
 
+#include <fmt/format.h>
+
 namespace locus::config {
 namespace {
 
 /// "name: value"; empty when the value is not set.
 std::string print_row(const OptionRow& row, const void* settings) {
     const std::string value = to_yaml(row.get(settings));
-    return value.empty() ? "" : std::string(row.name) + ": " + value;
+    return value.empty() ? "" : fmt::format("{}: {}", row.name, value);
 }
 
 } // namespace
@@ -18,7 +20,7 @@ std::string print_block(std::span<const ShownOptions> tables, std::size_t indent
         for (const auto& row : table.rows)
             if (const std::string line = print_row(row, table.settings); !line.empty()) {
                 const bool dash = list_item && lines.empty();
-                lines += std::string(indent, ' ') + (dash ? "- " : list_item ? "  " : "") + line + "\n";
+                lines += fmt::format("{:{}}{}{}\n", "", indent, dash ? "- " : list_item ? "  " : "", line);
             }
     return lines;
 }

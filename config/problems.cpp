@@ -1,14 +1,15 @@
 #include "config/problems.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
 namespace locus {
 
 std::string to_string(const ConfigProblem& problem) {
-    if (problem.line == 0) return problem.file + ": " + problem.message;
-    return problem.file + ":" + std::to_string(problem.line) + ":" + std::to_string(problem.column) + ": " +
-           problem.message;
+    if (problem.line == 0) return fmt::format("{}: {}", problem.file, problem.message);
+    return fmt::format("{}:{}:{}: {}", problem.file, problem.line, problem.column, problem.message);
 }
 
 namespace config {

@@ -3,6 +3,8 @@
 
 #include "config/problems.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -17,8 +19,7 @@ class Uniques {
     void check(const std::string& value, Mark mark, Problems& problems) {
         const auto [first, is_new] = first_lines_.try_emplace(value, mark.line);
         if (!is_new)
-            problems.add(mark,
-                         "a second " + what_ + " " + value + "; the first is in line " + std::to_string(first->second));
+            problems.add(mark, fmt::format("a second {} {}; the first is in line {}", what_, value, first->second));
     }
 
   private:

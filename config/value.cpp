@@ -4,6 +4,8 @@
 #include "config/parse_plain.h"
 #include "config/plain_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace locus::config {
@@ -20,7 +22,7 @@ std::string what_stands_here(const YamlNode& node) {
     case YamlNode::Kind::scalar:
         break;
     }
-    return std::string(node.quoted ? "here stands the text" : "here stands") + " \"" + shown(node.text) + "\"";
+    return fmt::format("here stands {}\"{}\"", node.quoted ? "the text " : "", shown(node.text));
 }
 
 /// Reads one node for one row; each overload of operator() makes the alternative of OptionValue that the row holds.
@@ -59,7 +61,7 @@ class Reader {
         if (row_.required && node_.text.empty()) return problem("is missing: the text is empty");
         if (!is_printable(node_.text)) return problem("holds characters that do not print");
         if (!row_.choices.empty() && std::ranges::find(row_.choices, node_.text) == row_.choices.end())
-            return problem("cannot be \"" + shown(node_.text) + "\"" + hint(node_.text, row_.choices));
+            return problem(fmt::format("cannot be \"{}\"{}", shown(node_.text), hint(node_.text, row_.choices)));
         return node_.text;
     }
 
@@ -79,12 +81,14 @@ class Reader {
     bool within_limits(double value) const { return value >= row_.minimum && value <= row_.maximum; }
 
     Result wrong_type(const OptionValue& shape) const {
-        const std::string unit = row_.unit.empty() ? "" : " in " + std::string(row_.unit);
-        return problem("must be " + type_name(shape) + unit + "; " + what_stands_here(node_));
+        const std::string unit = row_.unit.empty() ? "" : fmt::format(" in {}", row_.unit);
+        return problem(fmt::format("must be {}{}; {}", type_name(shape), unit, what_stands_here(node_)));
     }
-    Result out_of_range() const { return problem("is " + shown(node_.text) + "; it must be " + limits_text(row_)); }
+    Result out_of_range() const {
+        return problem(fmt::format("is {}; it must be {}", shown(node_.text), limits_text(row_)));
+    }
     Result problem(const std::string& text) const {
-        problems_.add(node_.mark, std::string(row_.name) + " " + text);
+        problems_.add(node_.mark, fmt::format("{} {}", row_.name, text));
         return std::nullopt;
     }
 

@@ -1,6 +1,8 @@
 #include "config/yaml_tree.h"
 #include "config/plain_text.h"
 
+#include <fmt/format.h>
+
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -89,8 +91,8 @@ class TreeBuilder : public YAML::EventHandler {
         Open& map = open_.back();
         if (map.node->children.size() == max_keys) throw Refused{mark, "this map holds too many keys"};
         if (const YamlNode* first = map.node->find(key))
-            problems_.add(mark, "\"" + shown(key) + "\" stands here a second time; first in line " +
-                                    std::to_string(first->key_mark.line));
+            problems_.add(mark, fmt::format("\"{}\" stands here a second time; first in line {}", shown(key),
+                                            first->key_mark.line));
         map.has_key = true;
         map.key = key;
         map.key_mark = mark;
