@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace locus {
 namespace {
@@ -85,7 +86,8 @@ void FusionLoop::publish_poses(Timestamp tick) noexcept {
 void FusionLoop::publish_sources() noexcept {
     const auto sources = plan_->engine->sources();
     const double share = static_cast<double>(schedule_.period().count()) / static_cast<double>(status_interval.count());
-    const double budget = std::ceil(std::min(1.0, share) * static_cast<double>(sources.size()));
+    const bool all = std::exchange(show_all_sources_, false);
+    const double budget = std::ceil((all ? 1.0 : std::min(1.0, share)) * static_cast<double>(sources.size()));
     const auto count = static_cast<std::uint16_t>(sources.size());
     for (double sent = 0; sent < budget; ++sent) {
         next_source_ = next_source_ + 1 < sources.size() ? next_source_ + 1 : 0;
@@ -106,6 +108,7 @@ void FusionLoop::adopt_plan() noexcept {
     plan_.swap(next);
     schedule_.set_period(period_of(plan_->rate_hz));
     next_source_ = 0;
+    show_all_sources_ = true;
     if (next->priority != plan_->priority) apply_scheduling();
     retired.give(next); // never full: the main thread has at most one plan on its way
 }

@@ -52,6 +52,7 @@ class FusionLoop {
     const Wake& ticked_;
     TickSchedule schedule_;
     std::size_t next_source_ = 0;
+    bool show_all_sources_ = true; ///< at the first tick of a plan
     std::uint64_t ticks_ = 0;
     std::uint64_t overruns_ = 0;
     std::atomic<std::uint32_t> positions_{0};

@@ -2,6 +2,7 @@
 #include "daemon/fusion_loop.h"
 
 #include "drivers/clock.h"
+#include "tests/allocations.h"
 #include "tests/unit/daemon/socket_client.h"
 
 #include <fmt/format.h>
@@ -9,26 +10,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
-
-namespace {
-thread_local std::uint64_t allocations_of_this_thread = 0;
-
-void* counted(std::size_t size) {
-    ++allocations_of_this_thread;
-    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-    throw std::bad_alloc{};
-}
-} // namespace
-
-// The whole test program counts; only this file looks.
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace locus {
 namespace {
@@ -99,19 +80,19 @@ TEST(FusionLoop, AllocatesNothingAndTouchesNoNewPageOnceItRuns) {
     Bench bench{10};
     // Warm: every ring was round once, so each of its pages was touched (the daemon locks them instead).
     for (int i = 0; i < 2000; ++i) bench.cycle(i);
-    const std::uint64_t allocations = allocations_of_this_thread;
+    const test::AllocationCount allocations;
     const long faults = page_faults();
     std::size_t positions = 0;
     for (int i = 0; i < 2000; ++i) positions += bench.cycle(i);
-    EXPECT_EQ(allocations_of_this_thread - allocations, 0u);
+    EXPECT_EQ(allocations.made(), 0u);
     EXPECT_EQ(page_faults() - faults, 0);
     EXPECT_EQ(positions, 20'000u) << "else nothing was proved";
 }
 
 TEST(FusionLoop, TheCounterCounts) {
-    const std::uint64_t before = allocations_of_this_thread;
-    delete new int{1};
-    EXPECT_GE(allocations_of_this_thread - before, 1u);
+    const test::AllocationCount allocations;
+    const Bench bench{1};
+    EXPECT_GE(allocations.made(), 1u);
 }
 
 TEST(FusionLoop, MeasurementsCarryTheirInputsPlaceInTheSettings) {

@@ -1,0 +1,112 @@
+// locusd as a process, with its own folder, configuration and socket; a pseudo-terminal in place of a device.
+#pragma once
+
+#include "drivers/transport/unique_fd.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace locus::test {
+
+/// A folder that is removed at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() : path_{::testing::TempDir() + "locusd-XXXXXX"} {
+        if (!::mkdtemp(path_.data())) throw std::runtime_error("mkdtemp");
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+  private:
+    std::string path_;
+};
+
+/// A pseudo-terminal whose far end a link points at, as udev's names do. Destroyed, it is unplugged.
+class FakeDevice {
+  public:
+    explicit FakeDevice(const std::string& link) : link_{link}, master_{::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)} {
+        ::grantpt(master_.get());
+        ::unlockpt(master_.get());
+        termios terminal{};
+        ::tcgetattr(master_.get(), &terminal);
+        ::cfmakeraw(&terminal);
+        ::tcsetattr(master_.get(), TCSANOW, &terminal);
+        char name[128];
+        ::ptsname_r(master_.get(), name, sizeof name);
+        std::filesystem::remove(link_);
+        std::filesystem::create_symlink(name, link_);
+    }
+    ~FakeDevice() { std::filesystem::remove(link_); }
+    FakeDevice(const FakeDevice&) = delete;
+    FakeDevice& operator=(const FakeDevice&) = delete;
+
+    void send(const std::string& bytes) const {
+        if (::write(master_.get(), bytes.data(), bytes.size()) < 0) FAIL() << "pty";
+    }
+
+  private:
+    std::string link_;
+    UniqueFd master_;
+};
+
+class DaemonProcess {
+  public:
+    explicit DaemonProcess(std::vector<std::string> arguments, const std::string& log) : pid_{::fork()} {
+        if (pid_ != 0) return;
+        const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+        ::dup2(out, STDOUT_FILENO);
+        ::dup2(out, STDERR_FILENO);
+        arguments.insert(arguments.begin(), LOCUSD);
+        std::vector<char*> argv;
+        for (auto& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        ::execv(LOCUSD, argv.data());
+        ::_exit(127);
+    }
+    ~DaemonProcess() {
+        if (pid_ < 0) return;
+        ::kill(pid_, SIGKILL);
+        ::waitpid(pid_, nullptr, 0);
+    }
+    DaemonProcess(const DaemonProcess&) = delete;
+    DaemonProcess& operator=(const DaemonProcess&) = delete;
+
+    void signal(int number) const { ::kill(pid_, number); }
+
+    /// Exit code; 128 and the signal's number when one killed it; empty when it still runs.
+    std::optional<int> exit_code() {
+        int status = 0;
+        if (pid_ < 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return {};
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t pid_;
+};
+
+inline std::string read_all(const std::string& path) {
+    std::ifstream stream{path};
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void write_all(const std::string& path, const std::string& text) { std::ofstream{path} << text; }
+
+} // namespace locus::test
