@@ -19,7 +19,8 @@ void add_watch(CLI::App& root, int& exit_code);
 void add_wait(CLI::App& root, int& exit_code);
 void add_reload(CLI::App& root, int& exit_code);
 
-// Of files.
+// Of files, without a daemon.
 void add_evaluate(CLI::App& root, int& exit_code);
+void add_simulate(CLI::App& root, int& exit_code);
 
 } // namespace locus

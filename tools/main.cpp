@@ -12,6 +12,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_wait,
     locus::add_reload,
     locus::add_evaluate,
+    locus::add_simulate,
 });
 }
 
