@@ -14,9 +14,8 @@ namespace {
 constexpr std::string_view wire_name(Wire wire) { return wire == Wire::can ? "CAN frames" : "a stream of bytes"; }
 
 /// Recordings and the socket carry the name as one word.
-void check_name(const YamlNode& item, const InputSettings& input, Uniques& names, Problems& problems) {
+void check_name(const YamlNode& item, const InputSettings& input, Problems& problems) {
     if (input.name.empty()) return;
-    names.check(input.name, item.mark, problems);
     if (input.name.size() > 64 || !std::ranges::all_of(input.name, [](unsigned char c) { return c > ' '; }))
         problems.add(item.find("name")->mark, "name must be one word of at most 64 letters");
 }
@@ -35,25 +34,27 @@ void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {
     if (input.decoder) input.decoder_settings = input.decoder->options.make();
 }
 
-void read_input(const YamlNode& item, InputSettings& input, Problems& problems) {
+} // namespace
+
+void read_input(const YamlNode& item, InputSettings& input, std::span<const BoundOptions> more, Problems& problems) {
     find_rows(item, input, problems);
     std::vector<BoundOptions> tables{{input_options, &input}};
     if (input.transport) tables.push_back({input.transport->options.rows, input.transport_settings.get()});
     if (input.decoder) tables.push_back({input.decoder->options.rows, input.decoder_settings.get()});
+    tables.insert(tables.end(), more.begin(), more.end());
     // An option of a device that was not found is no unknown key.
     const bool all_found = input.transport && input.decoder;
     (all_found ? read_map : read_known_keys)(item, {"input"}, tables, problems);
+    check_name(item, input, problems);
+    check_wire(item, input, problems);
 }
-
-} // namespace
 
 void read_inputs(const YamlNode& node, std::vector<InputSettings>& inputs, Problems& problems) {
     Uniques names("input with the name");
     for (const auto& item : list_items(node, max_inputs, problems)) {
         InputSettings& input = inputs.emplace_back();
-        read_input(item, input, problems);
-        check_name(item, input, names, problems);
-        check_wire(item, input, problems);
+        read_input(item, input, {}, problems);
+        if (!input.name.empty()) names.check(input.name, item.mark, problems);
     }
 }
 

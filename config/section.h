@@ -15,6 +15,8 @@ std::string print_site(const Site& site);
 void read_targets(const YamlNode& node, std::vector<TargetSettings>& targets, Problems& problems);
 std::string print_targets(const std::vector<TargetSettings>& targets);
 
+/// One item of the list; `more` are tables of further keys that may stand in its map.
+void read_input(const YamlNode& item, InputSettings& input, std::span<const BoundOptions> more, Problems& problems);
 void read_inputs(const YamlNode& node, std::vector<InputSettings>& inputs, Problems& problems);
 std::string print_inputs(const std::vector<InputSettings>& inputs);
 

@@ -19,7 +19,7 @@ void add_watch(CLI::App& root, int& exit_code);
 void add_wait(CLI::App& root, int& exit_code);
 void add_reload(CLI::App& root, int& exit_code);
 
-// Of files.
+// Of files, without a daemon.
 void add_evaluate(CLI::App& root, int& exit_code);
 // Of the devices themselves.
 void add_record(CLI::App& root, int& exit_code);
@@ -29,5 +29,6 @@ void add_config(CLI::App& root, int& exit_code);
 
 // Of the command line itself.
 void add_completion(CLI::App& root, int& exit_code);
+void add_simulate(CLI::App& root, int& exit_code);
 
 } // namespace locus

@@ -16,6 +16,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_check,
     locus::add_config,
     locus::add_completion,
+    locus::add_simulate,
 });
 }
 
