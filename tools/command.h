@@ -19,4 +19,7 @@ void add_watch(CLI::App& root, int& exit_code);
 void add_wait(CLI::App& root, int& exit_code);
 void add_reload(CLI::App& root, int& exit_code);
 
+// Of files.
+void add_replay(CLI::App& root, int& exit_code);
+
 } // namespace locus

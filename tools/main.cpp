@@ -11,6 +11,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_watch,
     locus::add_wait,
     locus::add_reload,
+    locus::add_replay,
 });
 }
 
