@@ -8,8 +8,7 @@ namespace {
 
 /// Enough that a roll-back runs over a seventh of the window more than it must, at most.
 constexpr std::size_t snapshots_per_target = 9;
-/// Letters of the largest address in hexadecimal.
-constexpr std::size_t longest_address = 16;
+constexpr std::string_view longest_address = "0xffffffffffffffff";
 
 TimelineLimits limits_of(const FusionSettings& fusion) {
     TimelineLimits limits;
@@ -26,8 +25,8 @@ std::uint16_t row_number(const EstimatorRow* row) { return static_cast<std::uint
 
 /// Within the capacity that the string has already.
 void write_hexadecimal(std::string& text, Address address) noexcept {
-    text.resize(longest_address);
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number(address), 16).ptr;
+    text = longest_address;
+    const auto end = std::to_chars(text.data() + 2, text.data() + text.size(), number(address), 16).ptr;
     text.resize(static_cast<std::size_t>(end - text.data()));
 }
 
@@ -48,7 +47,7 @@ TargetTable::TargetTable(const EngineSettings& settings, FreshEstimators& fresh)
         add(target, fresh.of(target.estimator.empty() ? settings.fusion.estimator : target.estimator), limits);
     }
     used_ = targets_.size();
-    const TargetSettings stranger{std::string(longest_address, ' '), no_address, {}};
+    const TargetSettings stranger{std::string(longest_address), no_address, {}};
     while (settings.fusion.accept_unknown_targets && targets_.size() < room)
         add(stranger, fresh.of(settings.fusion.estimator), limits);
 }

@@ -30,5 +30,7 @@ void add_config(CLI::App& root, int& exit_code);
 // Of the command line itself.
 void add_completion(CLI::App& root, int& exit_code);
 void add_simulate(CLI::App& root, int& exit_code);
+// Of files.
+void add_replay(CLI::App& root, int& exit_code);
 
 } // namespace locus

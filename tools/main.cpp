@@ -17,6 +17,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_config,
     locus::add_completion,
     locus::add_simulate,
+    locus::add_replay,
 });
 }
 

@@ -57,10 +57,13 @@ std::uint64_t allocations_of_a_run(EngineSettings settings) {
 }
 
 TEST(Engine, AllocatesNothingAfterConstruction) {
-    auto settings = follower_settings();
-    settings.fusion.max_targets = 12;
-    settings.fusion.max_measurement_rate_hz = 20;
-    EXPECT_EQ(allocations_of_a_run(settings), 0u);
+    for (const char* estimator : {"follower", "range_ekf"}) {
+        auto settings = follower_settings();
+        settings.fusion.estimator = estimator;
+        settings.fusion.max_targets = 12;
+        settings.fusion.max_measurement_rate_hz = 20;
+        EXPECT_EQ(allocations_of_a_run(settings), 0u) << estimator;
+    }
 }
 
 } // namespace

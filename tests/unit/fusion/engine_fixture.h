@@ -75,10 +75,12 @@ inline EngineSettings follower_settings() {
     settings.fusion.window_s = 0.2;
     settings.fusion.lost_after_s = 1;
     settings.estimators.push_back({&follower_row, std::make_shared<FollowerSettings>()});
-    for (std::uint64_t i = 0; i < 4; ++i) {
+    const std::array<Vec3, 4> corners{{{0, 0, 0}, {10, 0, 3}, {10, 8, 0}, {0, 8, 3}}};
+    for (std::uint64_t i = 0; i < corners.size(); ++i) {
         Anchor anchor;
         anchor.name = std::to_string(i);
         anchor.address = address(i);
+        anchor.position_site_m = corners[i];
         settings.site.anchors.push_back(anchor);
     }
     settings.targets.push_back({"cart", address(100), {}});

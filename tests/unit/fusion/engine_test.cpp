@@ -197,7 +197,7 @@ TEST(Engine, StrangeTagsGetSlotsUntilThereAreNoMore) {
     ASSERT_EQ(poses.size(), 4u);
     EXPECT_EQ(engine.target_name(0), "cart");
     EXPECT_EQ(poses[0].estimate.missing, Missing::measurements);
-    EXPECT_EQ(engine.target_name(3), "a2");
+    EXPECT_EQ(engine.target_name(3), "0xa2");
     EXPECT_EQ(poses[3].target, address(0xA2));
     EXPECT_EQ(poses[3].target_index, 3u);
     EXPECT_EQ(poses[3].estimate.missing, Missing::nothing);

@@ -1,0 +1,65 @@
+#include "tools/replay/replay.h"
+
+#include "daemon/socket/pose_line.h"
+#include "fusion/engine.h"
+#include "tools/replay/pose_file.h"
+#include "tools/replay/ticker.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace locus::replay {
+namespace {
+
+class Run {
+  public:
+    Run(const Settings& settings, const Request& request)
+        : settings_(settings), request_(request), engine_(settings.engine),
+          ticker_(engine_, [this](std::span<const Pose> poses) { take_poses(poses); }) {
+        for (const std::string& path : request.pose_files) files_.push_back(open_pose_file(path));
+    }
+
+    Summary go() {
+        summary_.read = read_recording(request_.recording, settings_, [this](const Measurement& m, Timestamp arrival) {
+            if (!summary_.first_arrival) summary_.first_arrival = summary_.last_arrival = arrival;
+            summary_.last_arrival = std::max(summary_.last_arrival, arrival);
+            ticker_.take(m, arrival);
+        });
+        ticker_.finish();
+        for (const auto& file : files_) file->close();
+        summary_.engine = engine_.counters();
+        return std::move(summary_);
+    }
+
+  private:
+    void take_poses(std::span<const Pose> poses) {
+        for (Pose pose : poses) {
+            const std::string name{engine_.target_name(pose.target_index)};
+            if (!request_.target.empty() && name != request_.target) continue;
+            Summary::Target& target = summary_.targets[name];
+            target.missing = pose.estimate.missing;
+            if (!is_publishable(pose)) continue;
+            pose.published = pose.estimate.time;
+            if (target.poses++ == 0) target.first = pose.estimate.time;
+            target.last = pose.estimate.time;
+            for (const auto& file : files_) file->write(pose, name);
+        }
+    }
+
+    const Settings& settings_;
+    const Request& request_;
+    Engine engine_;
+    Ticker ticker_;
+    std::vector<std::unique_ptr<PoseFile>> files_;
+    Summary summary_;
+};
+
+} // namespace
+
+bool Summary::has_poses() const {
+    return std::ranges::any_of(targets, [](const auto& named) { return named.second.poses > 0; });
+}
+
+Summary replay(const Settings& settings, const Request& request) { return Run(settings, request).go(); }
+
+} // namespace locus::replay

@@ -1,0 +1,49 @@
+// A recording through the engine: what went in, what became of it, and where the poses went.
+#pragma once
+
+#include "config/settings.h"
+#include "fusion/pose.h"
+#include "tools/replay/recording.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace locus::replay {
+
+struct Request {
+    std::string recording;
+    std::vector<std::string> pose_files;
+    std::string target; ///< only this one's poses; empty: all
+};
+
+struct Summary {
+    struct Target {
+        std::uint64_t poses = 0;
+        Timestamp first{}, last{};               ///< of its poses
+        Missing missing = Missing::measurements; ///< at the end
+    };
+
+    ReadReport read;
+    EngineCounters engine;
+    std::optional<Timestamp> first_arrival;
+    Timestamp last_arrival{};
+    std::map<std::string, Target> targets;
+
+    bool has_poses() const;
+};
+
+/// Throws std::runtime_error with a sentence when a file cannot be read or written, std::invalid_argument when the
+/// engine cannot work with the settings.
+Summary replay(const Settings& settings, const Request& request);
+
+/// The summary for people, and as one JSON object.
+std::vector<std::string> summary_lines(const Summary& summary);
+std::string summary_json(const Summary& summary);
+
+/// Why there is no pose: a sentence for each target.
+std::vector<std::string> what_is_missing(const Summary& summary);
+
+} // namespace locus::replay
