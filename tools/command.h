@@ -21,16 +21,15 @@ void add_reload(CLI::App& root, int& exit_code);
 
 // Of files, without a daemon.
 void add_evaluate(CLI::App& root, int& exit_code);
-// Of the devices themselves.
-void add_record(CLI::App& root, int& exit_code);
-// Of settings files.
+void add_replay(CLI::App& root, int& exit_code);
+void add_simulate(CLI::App& root, int& exit_code);
 void add_check(CLI::App& root, int& exit_code);
 void add_config(CLI::App& root, int& exit_code);
 
+// Of the devices themselves.
+void add_record(CLI::App& root, int& exit_code);
+
 // Of the command line itself.
 void add_completion(CLI::App& root, int& exit_code);
-void add_simulate(CLI::App& root, int& exit_code);
-// Of files.
-void add_replay(CLI::App& root, int& exit_code);
 
 } // namespace locus
