@@ -19,7 +19,7 @@ feed_serial() {
 start_serial_feed() { feed_serial & serial_feed=$!; }
 stop_serial_feed() { kill "$serial_feed" 2>/dev/null; wait "$serial_feed" 2>/dev/null; }
 
-start_can_feed() { canplayer -l i -I /out/guest/can.log vcan0=vcan0 & can_feed=$!; }
+start_can_feed() { canplayer -l i -I /out/guest/can.log vcan0=can & can_feed=$!; }
 stop_can_feed() { kill "$can_feed" 2>/dev/null; wait "$can_feed" 2>/dev/null; }
 
 write_configuration() {
