@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fusion/estimators/estimator.h"
+#include "fusion/geometry/error_bound.h"
 #include "tests/replay/crazyflie.h"
 
 #include <Eigen/Dense>
@@ -15,7 +16,7 @@ struct Score {
     double rmse_2d_m = 0;
     double rmse_z_m = 0;
     double worst_m = 0;
-    double within_2d = 0; ///< share of errors within the estimator's own 95 % ellipse, ellipsoid, interval
+    double within_2d = 0; ///< share of errors within the published 95 % radius; ellipsoid; interval
     double within_3d = 0;
     double within_z = 0;
     double sigma_2d_m = 0; ///< root mean of the estimator's own horizontal variance
@@ -59,9 +60,10 @@ inline void add(Score& score, const Estimate& estimate, const Eigen::Vector3d& a
     score.rmse_2d_m += error_2d.squaredNorm();
     score.rmse_z_m += error.z() * error.z();
     score.worst_m = std::max(score.worst_m, error.norm());
-    score.within_2d += error_2d.dot(horizontal.inverse() * error_2d) < 5.991; // chi-square 95 %
-    score.within_3d += error.dot(covariance.inverse() * error) < 7.815;
-    score.within_z += error.z() * error.z() < 3.841 * covariance(2, 2);
+    score.within_2d +=
+        error_2d.norm() <= double{horizontal_error_95_m(horizontal(0, 0), horizontal(0, 1), horizontal(1, 1))};
+    score.within_3d += error.dot(covariance.inverse() * error) <= 7.815; // chi-square of three, 95 %
+    score.within_z += std::abs(error.z()) <= double{vertical_error_95_m(covariance(2, 2))};
     score.sigma_2d_m += horizontal.trace();
     ++score.ticks;
 }
