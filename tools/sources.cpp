@@ -1,6 +1,7 @@
 // locus sources: every anchor and input, how it does, and in a sentence why it is not used.
 #include "tools/client/command.h"
 #include "tools/client/fields.h"
+#include "tools/client/source.h"
 #include "tools/show/table.h"
 #include "tools/show/terminal.h"
 #include "tools/show/words.h"
@@ -20,7 +21,8 @@ std::string name_or_address(const json& item) {
 }
 
 std::string verdict(const json& source) {
-    if (flag(source, "used")) return "used";
+    if (in_use(source)) return "used";
+    if (flag(source, "used")) return fmt::format("silent for {}", duration(number(source, "last_used_age_s")));
     const std::string sentence = text(source, "sentence");
     return sentence.empty() ? text(source, "reason") : sentence;
 }

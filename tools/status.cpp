@@ -1,6 +1,7 @@
 // locus status: one screen that says whether positions come out, and if not what is missing.
 #include "tools/client/command.h"
 #include "tools/client/fields.h"
+#include "tools/client/source.h"
 #include "tools/show/terminal.h"
 #include "tools/show/words.h"
 
@@ -34,14 +35,14 @@ void print_headline(const Message& version, const json& status) {
 void print_flow(const json& sources, const json& targets) {
     print_row("inputs",
               share(list(sources, "inputs"), [](const json& i) { return text(i, "state") == "open"; }, "open"));
-    print_row("sources", share(list(sources, "sources"), [](const json& s) { return flag(s, "used"); }, "used"));
+    print_row("sources", share(list(sources, "sources"), in_use, "used"));
     print_row("targets",
               share(list(targets, "targets"), [](const json& t) { return flag(t, "has_pose"); }, "have a position"));
 }
 
 std::string ticks(const json& status) {
     const json& late = object(status, "tick_late_us");
-    return fmt::format("{} at {} Hz, {} overrun; late by {} us in the middle, {} us at 99 %, {} us at most",
+    return fmt::format("{} at {} Hz, {} overruns; late by {} us (median), {} us (99 %), {} us (maximum)",
                        figure(number(status, "ticks"), 0), figure(number(status, "rate_hz"), 0),
                        figure(number(status, "overruns"), 0), figure(number(late, "p50"), 0),
                        figure(number(late, "p99"), 0), figure(number(late, "max"), 0));

@@ -49,6 +49,8 @@ class View {
     virtual ~View() = default;
     virtual void take(const Message& message) = 0;
     virtual void refresh() = 0;
+    /// Poses of each target a second that it has use for; empty: all.
+    virtual std::optional<double> rate_hz() const = 0;
 };
 
 // A line a pose, out at once: the reader may be a program. Silence would leave a person to guess.
@@ -61,6 +63,7 @@ class Lines : public View {
         std::fflush(stdout);
         silent_ = false;
     }
+    std::optional<double> rate_hz() const override { return as_json_ ? std::nullopt : std::optional{5.0}; }
     void refresh() override {
         if (silent_ && hint_.due()) complain("no pose yet: `locus status` says what is missing");
     }
@@ -75,6 +78,7 @@ class LiveTable : public View {
   public:
     LiveTable(const Message& version, const WatchOptions& options) : poses_(version, options.request.targets) {}
     void take(const Message& message) override { poses_.take(message); }
+    std::optional<double> rate_hz() const override { return 20; } // so that what is shown is hardly old
     void refresh() override { screen_.show(poses_.lines(to_s(monotonic_now()))); }
 
   private:
@@ -104,10 +108,9 @@ std::uint64_t stream(Client& client, const WatchOptions& options, View& view) {
 }
 
 int watch(Client& client, WatchOptions options, bool as_json) {
-    constexpr double readable_hz = 5;
-    if (!options.request.rate_hz && !as_json) options.request.rate_hz = readable_hz;
-    start_watching(client, options.request);
     const auto view = make_view(client, options, as_json);
+    if (!options.request.rate_hz) options.request.rate_hz = view->rate_hz();
+    start_watching(client, options.request);
     return stream(client, options, *view) > 0 ? exit_yes : exit_no;
 }
 
@@ -126,7 +129,7 @@ void add_watch(CLI::App& root, int& exit_code) {
         ->allow_extra_args(false)
         ->type_name("NAME");
     app.add_option("--rate", options->request.rate_hz,
-                   "At most so many poses of each target a second (5, with --json all)")
+                   "At most so many poses of each target a second (5 as lines, all with --json)")
         ->type_name("HZ")
         ->check(CLI::PositiveNumber);
     app.add_option("--count", options->count, "Stop after so many poses")->type_name("N")->check(CLI::PositiveNumber);

@@ -109,9 +109,9 @@ void Axes::draw(Svg& svg, std::span<const double> x_ticks, std::span<const doubl
 }
 
 void Axes::draw(Svg& svg, std::string_view x_title, std::string_view y_title) const {
-    constexpr double pixels_a_tick = 70;
-    draw(svg, ticks(x_, static_cast<int>(width_px() / pixels_a_tick)),
-         ticks(y_, static_cast<int>(height_px() / pixels_a_tick)), x_title, y_title);
+    constexpr double pixels_a_tick_x = 70, pixels_a_tick_y = 45;
+    draw(svg, ticks(x_, static_cast<int>(width_px() / pixels_a_tick_x)),
+         ticks(y_, static_cast<int>(height_px() / pixels_a_tick_y)), x_title, y_title);
 }
 
 } // namespace locus::evaluate

@@ -85,24 +85,19 @@ void PosePanel::take_targets(const json& targets) {
 
 std::vector<std::string> PosePanel::lines(double now_s) const {
     Table table({{"target"},
-                 {"x m", Align::right},
-                 {"y m", Align::right},
-                 {"z m", Align::right},
+                 {"x m", Align::right, 8},
+                 {"y m", Align::right, 8},
+                 {"z m", Align::right, 7},
                  {"±95 % m", Align::right},
-                 {"±z m", Align::right},
-                 {"m/s", Align::right},
-                 {"age", Align::right},
+                 {"±z m", Align::right, 5},
+                 {"m/s", Align::right, 5},
+                 {"age", Align::right, 6},
                  {"resets", Align::right},
                  {"from"}});
     for (const auto& [name, row] : rows_)
-        table.add(row.missing.empty() ? cells(name, row.pose, now_s) : std::vector{name});
+        table.add(row.missing.empty() ? cells(name, row.pose, now_s) : std::vector{name, row.missing});
+    if (rows_.empty()) table.add({"no target yet: `locus status` says what is missing"});
     auto result = table.lines();
-    std::size_t line = 1;
-    for (const auto& [name, row] : rows_) {
-        if (!row.missing.empty()) result[line] += "  " + row.missing;
-        ++line;
-    }
-    if (rows_.empty()) result.push_back("no target yet: `locus status` says what is missing");
     result.insert(result.begin(), title_);
     return result;
 }

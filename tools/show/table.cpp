@@ -13,11 +13,17 @@ std::string padded(const std::string& text, std::size_t columns, Align align) {
     return align == Align::left ? text + space : space + text;
 }
 
+bool runs_on(const std::vector<std::string>& cells, std::size_t i, std::size_t columns) {
+    return i + 1 == cells.size() && cells.size() < columns;
+}
+
 std::string line(const std::vector<std::string>& cells, const std::vector<Column>& columns,
                  const std::vector<std::size_t>& widths) {
     std::string result;
-    for (std::size_t i = 0; i < std::min(cells.size(), columns.size()); ++i)
-        result += (i ? "  " : "") + padded(cells[i], widths[i], columns[i].align);
+    for (std::size_t i = 0; i < std::min(cells.size(), columns.size()); ++i) {
+        if (i > 0) result += "  ";
+        result += runs_on(cells, i, columns.size()) ? cells[i] : padded(cells[i], widths[i], columns[i].align);
+    }
     result.erase(result.find_last_not_of(' ') + 1);
     return result;
 }
@@ -38,9 +44,9 @@ std::string clip(const std::string& text, std::size_t columns) {
 std::vector<std::size_t> Table::widths() const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        result.push_back(width(columns_[i].title));
+        result.push_back(std::max(columns_[i].least_width, width(columns_[i].title)));
         for (const auto& row : rows_)
-            if (i < row.size()) result[i] = std::max(result[i], width(row[i]));
+            if (i < row.size() && !runs_on(row, i, columns_.size())) result[i] = std::max(result[i], width(row[i]));
     }
     return result;
 }

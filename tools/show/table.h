@@ -12,13 +12,14 @@ enum class Align { left, right };
 struct Column {
     std::string title;
     Align align = Align::left;
+    std::size_t least_width = 0; ///< so that a table that is shown again and again does not jump
 };
 
 class Table {
   public:
     explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// Cells that are missing at the end are empty.
+    /// In a row with fewer cells than columns the last one runs on over the columns that follow.
     void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
     bool empty() const { return rows_.empty(); }
 

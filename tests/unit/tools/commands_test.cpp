@@ -75,6 +75,13 @@ TEST(Sources, ShowEachSourceWithItsSentenceAndEachInputWithItsError) {
     EXPECT_THAT(result.out, HasSubstr("  uwb: 3 refused as malformed\n"));
 }
 
+TEST(Sources, OneThatFellSilentIsNotInUse) {
+    const FakeDaemon daemon(
+        {{"?SOURCES",
+          "{\"class\":\"SOURCES\",\"sources\":[{\"name\":\"north\",\"used\":true,\"last_used_age_s\":3.04}]}\n"}});
+    EXPECT_THAT(run_client({"sources", "--socket", daemon.path()}).out, HasSubstr("silent for 3.0 s"));
+}
+
 TEST(Targets, ShowWhereTheyAreOrWhatStandsInTheWay) {
     const FakeDaemon daemon({{"?TARGETS", targets_line}});
     const auto result = run_client({"targets", "--socket", daemon.path()});

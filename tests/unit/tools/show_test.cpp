@@ -33,8 +33,16 @@ TEST(Words, UnknownFiguresAreADash) {
 TEST(Table, ColumnsAreAsWideAsTheyNeedToBe) {
     Table table({{"name"}, {"m", Align::right}, {"state"}});
     table.add({"Müller", "12.5", "used"});
-    table.add({"b", "3"});
+    table.add({"b", "3", ""});
     EXPECT_THAT(table.lines(), ElementsAre("name       m  state", "Müller  12.5  used", "b          3"));
+}
+
+TEST(Table, TheLastCellOfAShortRowRunsOn) {
+    Table table({{"name"}, {"m", Align::right, 6}, {"state"}});
+    table.add({"a", "a sentence that needs room"});
+    table.add({"b", "3", "used"});
+    EXPECT_THAT(table.lines(),
+                ElementsAre("name       m  state", "a     a sentence that needs room", "b          3  used"));
 }
 
 TEST(Table, ClipsAtCharactersNotBytes) {
