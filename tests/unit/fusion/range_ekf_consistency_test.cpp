@@ -136,7 +136,7 @@ TEST(Sighting, GradientsMatchDifferencesOnBothKinds) {
     const Site site = test::hall();
     for (const uwb::Sighting sighting :
          {uwb::Sighting{2, uwb::Sighting::nobody, 0.1f, 0}, uwb::Sighting{2, 5, 0.1f, 0}})
-        for (const Eigen::Vector3d p :
+        for (const Eigen::Vector3d& p :
              {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-4, 4, 0.3), Eigen::Vector3d(30, 9, -2)})
             EXPECT_TRUE(test::jacobian_matches(
                 [&](const Eigen::VectorXd& x) { return uwb::predicted_m(sighting, site, x.head<3>()); },
