@@ -4,8 +4,6 @@
 #include "drivers/transport/unique_fd.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -15,7 +13,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,7 +25,7 @@ namespace locus::test {
 /// A folder that is removed at the end.
 class TemporaryFolder {
   public:
-    TemporaryFolder() : path_{::testing::TempDir() + "locusd-XXXXXX"} {
+    TemporaryFolder() : path_{std::filesystem::temp_directory_path() / "locusd-XXXXXX"} {
         if (!::mkdtemp(path_.data())) throw std::runtime_error("mkdtemp");
     }
     ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -57,8 +57,8 @@ class FakeDevice {
     FakeDevice(const FakeDevice&) = delete;
     FakeDevice& operator=(const FakeDevice&) = delete;
 
-    void send(const std::string& bytes) const {
-        if (::write(master_.get(), bytes.data(), bytes.size()) < 0) FAIL() << "pty";
+    bool send(const std::string& bytes) const {
+        return ::write(master_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
     }
 
   private:
@@ -89,6 +89,8 @@ class DaemonProcess {
     DaemonProcess& operator=(const DaemonProcess&) = delete;
 
     void signal(int number) const { ::kill(pid_, number); }
+
+    pid_t pid() const { return pid_; }
 
     /// Exit code; 128 and the signal's number when one killed it; empty when it still runs.
     std::optional<int> exit_code() {
