@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
@@ -68,8 +69,12 @@ class FakeDevice {
 
 class DaemonProcess {
   public:
-    explicit DaemonProcess(std::vector<std::string> arguments, const std::string& log) : pid_{::fork()} {
+    /// `prepare` runs in the child before it becomes locusd.
+    explicit DaemonProcess(
+        std::vector<std::string> arguments, const std::string& log, const std::function<void()>& prepare = [] {})
+        : pid_{::fork()} {
         if (pid_ != 0) return;
+        prepare();
         const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
         ::dup2(out, STDOUT_FILENO);
         ::dup2(out, STDERR_FILENO);
