@@ -4,6 +4,7 @@
 #include "tests/support/daemon_process.h"
 #include "tests/support/socket_client.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
