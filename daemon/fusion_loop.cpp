@@ -97,8 +97,16 @@ void FusionLoop::publish_sources() noexcept {
 }
 
 void FusionLoop::publish_tick(Timestamp tick, Duration late) noexcept {
-    output_.ticks.push({plan_->generation, tick, late, ticks_, overruns_, scheduling() == Scheduling::realtime,
-                        plan_->engine->counters()});
+    TickItem item;
+    item.generation = plan_->generation;
+    item.tick = tick;
+    item.late = late;
+    item.ticks = ticks_;
+    item.overruns = overruns_;
+    item.poses_dropped = output_.poses.dropped();
+    item.realtime = scheduling() == Scheduling::realtime;
+    item.engine = plan_->engine->counters();
+    output_.ticks.push(item);
 }
 
 void FusionLoop::adopt_plan() noexcept {

@@ -151,6 +151,8 @@ std::vector<std::string> Service::reload() {
     std::vector<std::string> problems;
     for (const ConfigProblem& problem : loaded.problems) problems.push_back(to_string(problem));
     if (!loaded.settings) return problems;
+    if (loaded.settings->publish.socket != settings_.publish.socket)
+        spdlog::warn("publish.socket comes into force at the next start; clients still connect where they did");
     manager_.reloading();
     try {
         auto engine = engine_if_changed(*loaded.settings);

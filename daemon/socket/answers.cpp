@@ -158,6 +158,7 @@ std::string status_line(const Picture& picture, const Roster& roster, std::size_
     object["clients"] = clients;
     object["config"] = roster.config;
     object["engine"] = engine_json(tick.engine);
+    object["poses_dropped"] = tick.poses_dropped;
     object["memory_locked"] = roster.memory_locked;
     object["realtime"] = tick.realtime;
     object["version"] = release();

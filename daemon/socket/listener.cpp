@@ -1,5 +1,6 @@
 #include "daemon/socket/listener.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -79,6 +80,8 @@ std::optional<Listener> Listener::inherit() {
     if (count <= 0) return {};
     if (count > 1 || ::sd_is_socket(SD_LISTEN_FDS_START, AF_UNIX, SOCK_STREAM, 1) <= 0)
         throw std::runtime_error("systemd handed over something else than one listening UNIX stream socket");
+    // systemd hands it over blocking, and an accept that waits would stop every client.
+    ::fcntl(SD_LISTEN_FDS_START, F_SETFL, ::fcntl(SD_LISTEN_FDS_START, F_GETFL) | O_NONBLOCK);
     return Listener{UniqueFd{SD_LISTEN_FDS_START}, {}};
 }
 

@@ -1,9 +1,10 @@
 // The daemon as its users meet it: bytes into a pseudo-terminal, poses out of the socket, and everything that goes
 // wrong on the way.
 #include "drivers/uwb/trek1000.h"
-#include "tests/fault/daemon_process.h"
-#include "tests/unit/daemon/socket_client.h"
+#include "tests/support/daemon_process.h"
+#include "tests/support/socket_client.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -163,8 +164,7 @@ TEST_F(DaemonTest, WithoutItsDeviceItRunsAndSaysWhatIsMissing) {
     start();
     SocketClient client{socket_};
     ASSERT_TRUE(eventually([&] {
-        return client.ask("?STATUS;", "STATUS").dump().find("plugged in or its program running?") !=
-               std::string::npos;
+        return client.ask("?STATUS;", "STATUS").dump().find("plugged in or its program running?") != std::string::npos;
     }));
     device_ = std::make_unique<test::FakeDevice>(folder_ / "tag");
     ASSERT_TRUE(comes_to(client, 3, 5));

@@ -3,7 +3,7 @@
 
 #include "drivers/clock.h"
 #include "tests/allocations.h"
-#include "tests/unit/daemon/socket_client.h"
+#include "tests/support/socket_client.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

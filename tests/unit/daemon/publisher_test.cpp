@@ -1,7 +1,7 @@
 // The publisher with real sockets, its rings filled by the test.
 #include "daemon/socket/publisher.h"
 
-#include "tests/unit/daemon/socket_client.h"
+#include "tests/support/socket_client.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

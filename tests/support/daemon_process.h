@@ -4,8 +4,6 @@
 #include "drivers/transport/unique_fd.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -15,7 +13,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,7 +26,7 @@ namespace locus::test {
 /// A folder that is removed at the end.
 class TemporaryFolder {
   public:
-    TemporaryFolder() : path_{::testing::TempDir() + "locusd-XXXXXX"} {
+    TemporaryFolder() : path_{std::filesystem::temp_directory_path() / "locusd-XXXXXX"} {
         if (!::mkdtemp(path_.data())) throw std::runtime_error("mkdtemp");
     }
     ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -57,8 +58,8 @@ class FakeDevice {
     FakeDevice(const FakeDevice&) = delete;
     FakeDevice& operator=(const FakeDevice&) = delete;
 
-    void send(const std::string& bytes) const {
-        if (::write(master_.get(), bytes.data(), bytes.size()) < 0) FAIL() << "pty";
+    bool send(const std::string& bytes) const {
+        return ::write(master_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
     }
 
   private:
@@ -68,8 +69,12 @@ class FakeDevice {
 
 class DaemonProcess {
   public:
-    explicit DaemonProcess(std::vector<std::string> arguments, const std::string& log) : pid_{::fork()} {
+    /// `prepare` runs in the child before it becomes locusd.
+    explicit DaemonProcess(
+        std::vector<std::string> arguments, const std::string& log, const std::function<void()>& prepare = [] {})
+        : pid_{::fork()} {
         if (pid_ != 0) return;
+        prepare();
         const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
         ::dup2(out, STDOUT_FILENO);
         ::dup2(out, STDERR_FILENO);
@@ -89,6 +94,8 @@ class DaemonProcess {
     DaemonProcess& operator=(const DaemonProcess&) = delete;
 
     void signal(int number) const { ::kill(pid_, number); }
+
+    pid_t pid() const { return pid_; }
 
     /// Exit code; 128 and the signal's number when one killed it; empty when it still runs.
     std::optional<int> exit_code() {
