@@ -1,8 +1,9 @@
 // How a set of points lies in space: what tells a box of anchors from a ceiling or a corridor of them.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace locus {
@@ -11,28 +12,43 @@ template <int D>
 struct Spread {
     Eigen::Matrix<double, D, 1> centroid_m;
     Eigen::Matrix<double, D, 1> normal; ///< unit vector along which the points spread least
-    double thickness_m = 0;             ///< RMS along the normal
-    double width_m = 0;                 ///< RMS along the next axis
-    double length_m = 0;                ///< RMS along the longest axis
+    double extent_m = 0;                ///< RMS distance from the centroid
+    double thickness_m = 0;             ///< RMS along the normal: the smallest singular value
+    double width_share = 0;             ///< two larger singular values' geometric mean over the extent: 0 on a line
 };
 
-/// Principal axes of points (D x n), from the singular values of the centred points.
+/// Adjugate of a symmetric matrix: the inverse times the determinant, and there also when the inverse is not.
+inline Eigen::Matrix2d adjugate(const Eigen::Matrix2d& m) {
+    return (Eigen::Matrix2d() << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0)).finished();
+}
+inline Eigen::Matrix3d adjugate(const Eigen::Matrix3d& m) {
+    Eigen::Matrix3d result;
+    for (int i = 0; i < 3; ++i) result.col(i) = m.col((i + 1) % 3).cross(m.col((i + 2) % 3));
+    return result;
+}
+
+/// Of points (D x n). The adjugate of their scatter matrix grows along the thinnest axis by the product of the other
+/// eigenvalues, so its largest column shows the normal without an eigenvalue solver, exactly where the points are flat.
 template <int D, class Points>
 Spread<D> spread_of(const Points& points_m) {
+    using Matrix = Eigen::Matrix<double, D, D>;
     Spread<D> spread;
     spread.centroid_m = points_m.rowwise().mean();
-    Eigen::Matrix<double, D, D> scatter = Eigen::Matrix<double, D, D>::Zero();
+    Matrix scatter_m2 = Matrix::Zero();
     for (Eigen::Index i = 0; i < points_m.cols(); ++i) {
         const Eigen::Matrix<double, D, 1> from_centroid = points_m.col(i) - spread.centroid_m;
-        scatter.noalias() += from_centroid * from_centroid.transpose();
+        scatter_m2 += from_centroid * from_centroid.transpose();
     }
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> axes;
-    axes.computeDirect(scatter / static_cast<double>(points_m.cols()));
-    const Eigen::Matrix<double, D, 1> rms_m = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
-    spread.normal = axes.eigenvectors().col(0);
-    spread.thickness_m = rms_m(0);
-    spread.width_m = rms_m(1);
-    spread.length_m = rms_m(D - 1);
+    scatter_m2 /= static_cast<double>(points_m.cols());
+    const double square_m2 = scatter_m2.trace();
+    const Matrix across = adjugate(Matrix(scatter_m2 / square_m2));
+    const Matrix sharper = across * across; // once more: the normal stands out by the square
+    Eigen::Index largest = 0;
+    sharper.diagonal().maxCoeff(&largest);
+    spread.normal = sharper.col(largest).normalized();
+    spread.extent_m = std::sqrt(square_m2);
+    spread.thickness_m = std::sqrt(std::max(0.0, spread.normal.dot(scatter_m2 * spread.normal)));
+    spread.width_share = std::sqrt(std::max(0.0, across.trace()));
     return spread;
 }
 

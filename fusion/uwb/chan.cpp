@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace locus::uwb {
@@ -52,9 +53,9 @@ void add_point(ChanPoints& points, const Vector<D>& position) {
 /// D independent differences leave x = alpha - beta R1; |x|^2 + h^2 = R1^2 is a quadratic with up to two answers.
 template <int D>
 std::array<Vector<D>, 2> both_roots(const NormalEquations<D + 1>& normal, double height_m) {
-    const Matrix<D> inverse = normal.information.template topLeftCorner<D, D>().inverse();
-    const Vector<D> alpha = inverse * normal.projection.template head<D>();
-    const Vector<D> beta = inverse * normal.information.template topRightCorner<D, 1>();
+    const Matrix<D> inverse = normal.information().template topLeftCorner<D, D>().inverse();
+    const Vector<D> alpha = inverse * normal.projection().template head<D>();
+    const Vector<D> beta = inverse * normal.information().template topRightCorner<D, 1>();
     const double a = beta.squaredNorm() - 1, b = -alpha.dot(beta), c = alpha.squaredNorm() + height_m * height_m;
     const double root = std::sqrt(std::max(0.0, b * b - a * c));
     const double stable = -(b + std::copysign(root, b)); // a R1^2 + 2 b R1 + c = 0 without cancellation
@@ -73,13 +74,21 @@ NormalEquations<D + 1> first_step(const Epoch& epoch, const CommonReference& ref
         if constexpr (D == 2) e(D + 1) += place.z() * origin.z(); // the tag's height is known
         return e;
     };
-    NormalEquations<D + 1> normal;
-    for (const Row& row : epoch.rows) {
-        const Vector<D + 2> e = row.inverse_sigma * (equation(row.b) - equation(row.a));
-        normal.add(e.template head<D + 1>(), e(D + 1));
-    }
-    if (epoch.correlation > 0) normal.correlate(epoch.correlation, static_cast<double>(epoch.rows.size()));
-    return normal;
+    return sum_of_rows<D + 1>(epoch, [&](const Row& row) -> Vector<D + 2> {
+        return row.inverse_sigma * (equation(row.b) - equation(row.a));
+    });
+}
+
+/// Step one for ranges: r^2 = |x|^2 - 2 a.x + |a|^2, whose noise is 2 r times that of r.
+template <int D>
+NormalEquations<D + 1> first_step(const Epoch& epoch) {
+    return sum_of_rows<D + 1>(epoch, [&](const Row& row) -> Vector<D + 2> {
+        const Eigen::Vector3d anchor = epoch.anchors_m.col(row.b);
+        const double slope = row.inverse_sigma / std::max(std::abs(2 * row.value_m), 1 / row.inverse_sigma);
+        Vector<D + 2> e; // coordinates, |x|^2, right side
+        e << 2 * anchor.head<D>(), -1, anchor.squaredNorm() - row.value_m * row.value_m;
+        return slope * e;
+    });
 }
 
 } // namespace
@@ -97,27 +106,20 @@ ChanPoints chan_differences(const Epoch& epoch) noexcept {
         for (const Vector<D>& root : both_roots<D>(normal, height_m)) add_point<D>(points, root + shift);
         return points;
     }
-    const Vector<D + 1> first = normal.information.inverse() * normal.projection; // eq. 5
+    const Vector<D + 1> first = normal.information().inverse() * normal.projection(); // eq. 5
     const double distance = std::max(std::abs(first(D)), 1e-6);
     const Vector<D> second = second_step<D>(first.template head<D>(), distance * distance - height_m * height_m,
-                                            2 * distance, normal.information);
+                                            2 * distance, normal.information());
     add_point<D>(points, second + shift);
     return points;
 }
 
 template <int D>
 ChanPoints chan_ranges(const Epoch& epoch) noexcept {
-    NormalEquations<D + 1> normal;
-    for (const Row& row : epoch.rows) {
-        const Eigen::Vector3d anchor = epoch.anchors_m.col(row.b);
-        const double slope = row.inverse_sigma / std::max(std::abs(2 * row.value_m), 1 / row.inverse_sigma);
-        Vector<D + 1> equation;
-        equation << 2 * anchor.head<D>(), -1;
-        normal.add(slope * equation, slope * (anchor.squaredNorm() - row.value_m * row.value_m));
-    }
-    const Vector<D + 1> first = normal.information.inverse() * normal.projection;
+    const NormalEquations<D + 1> normal = first_step<D>(epoch);
+    const Vector<D + 1> first = normal.information().inverse() * normal.projection();
     ChanPoints points;
-    add_point<D>(points, second_step<D>(first.template head<D>(), first(D), 1, normal.information));
+    add_point<D>(points, second_step<D>(first.template head<D>(), first(D), 1, normal.information()));
     return points;
 }
 

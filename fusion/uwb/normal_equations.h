@@ -2,35 +2,57 @@
 // rows; noise that all rows share (one reference anchor in every difference) is a rank-one correction at the end.
 #pragma once
 
+#include "fusion/uwb/epoch.h"
+
 #include <Eigen/Core>
 
 namespace locus::uwb {
 
 template <int N>
-struct NormalEquations {
-    Eigen::Matrix<double, N, N> information = Eigen::Matrix<double, N, N>::Zero(); ///< H' R^-1 H
-    Eigen::Matrix<double, N, 1> projection = Eigen::Matrix<double, N, 1>::Zero();  ///< H' R^-1 residual
-    double cost = 0;                                                               ///< residual' R^-1 residual
-    Eigen::Matrix<double, N, 1> row_sum = Eigen::Matrix<double, N, 1>::Zero();
-    double residual_sum = 0;
+class NormalEquations {
+  public:
+    using Equation = Eigen::Matrix<double, N + 1, 1>;
 
-    /// One row and its residual, both already divided by the row's standard deviation.
-    void add(const Eigen::Matrix<double, N, 1>& row, double residual) {
-        information.noalias() += row * row.transpose();
-        projection += residual * row;
-        cost += residual * residual;
-        row_sum += row;
-        residual_sum += residual;
+    /// The N coefficients of an equation and, last, its residual: all divided by its standard deviation.
+    void add(const Equation& row) { add_scaled(row, 1); }
+
+    /// Turns independent noise into noise with one correlation c between any two of the `count` rows, whose sum is
+    /// given: R = (1 - c) I + c 11', so R^-1 = (I - c / (1 - c + count c) 11') / (1 - c)   (Sherman-Morrison).
+    void correlate(double correlation, double count, const Equation& sum) {
+        add_scaled(sum, -correlation / (1 - correlation + count * correlation));
+        squares_ /= 1 - correlation;
     }
 
-    /// Turns independent noise into noise with one correlation between any two of the `count` rows:
-    /// R = (1 - c) I + c 11', so R^-1 = (I - c / (1 - c + count c) 11') / (1 - c)   (Sherman-Morrison).
-    void correlate(double correlation, double count) {
-        const double shared = correlation / (1 - correlation + count * correlation);
-        information = (information - shared * row_sum * row_sum.transpose()) / (1 - correlation);
-        projection = (projection - shared * residual_sum * row_sum) / (1 - correlation);
-        cost = (cost - shared * residual_sum * residual_sum) / (1 - correlation);
+    /// H' R^-1 H
+    Eigen::Matrix<double, N, N> information() const {
+        return squares_.template topLeftCorner<N, N>().template selfadjointView<Eigen::Upper>();
     }
+    /// H' R^-1 residual
+    Eigen::Matrix<double, N, 1> projection() const { return squares_.template topRightCorner<N, 1>(); }
+    /// residual' R^-1 residual
+    double cost() const { return squares_(N, N); }
+
+  private:
+    void add_scaled(const Equation& row, double scale) {
+        for (int column = 0; column <= N; ++column)
+            for (int i = 0; i <= column; ++i) squares_(i, column) += scale * row(i) * row(column);
+    }
+
+    /// Of rows, so the residuals' products are in the last column. Upper half only.
+    Eigen::Matrix<double, N + 1, N + 1> squares_ = Eigen::Matrix<double, N + 1, N + 1>::Zero();
 };
+
+/// The sum over all rows of an epoch. `equation` gives what add() takes, for one row.
+template <int N, class Equation>
+NormalEquations<N> sum_of_rows(const Epoch& epoch, const Equation& equation) {
+    NormalEquations<N> normal;
+    for (const Row& row : epoch.rows) normal.add(equation(row));
+    if (epoch.correlation > 0) {
+        typename NormalEquations<N>::Equation sum = NormalEquations<N>::Equation::Zero();
+        for (const Row& row : epoch.rows) sum += equation(row);
+        normal.correlate(epoch.correlation, static_cast<double>(epoch.rows.size()), sum);
+    }
+    return normal;
+}
 
 } // namespace locus::uwb

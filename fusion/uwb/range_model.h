@@ -11,16 +11,27 @@ namespace locus::uwb {
 /// Below this distance from an anchor the direction to it means nothing.
 inline constexpr double on_anchor_m = 1e-6;
 
-/// Distance from position to anchor, m (same frame).
-inline double range(const Eigen::Vector3d& position_m, const Eigen::Vector3d& anchor_m) {
-    return (position_m - anchor_m).norm();
+/// A range and its gradient by position, which share one square root.
+struct Sight {
+    Eigen::Vector3d gradient; ///< unit vector from the anchor to the position; falls to zero on the anchor
+    double range_m = 0;
+};
+
+inline Sight sight_of(const Eigen::Vector3d& position_m, const Eigen::Vector3d& anchor_m) {
+    const Eigen::Vector3d from_anchor_m = position_m - anchor_m;
+    const double range_m = from_anchor_m.norm();
+    return {from_anchor_m * (1 / std::max(range_m, on_anchor_m)), range_m};
 }
 
-/// Gradient of range() by position: the unit vector from the anchor to the position. On the anchor itself, where it
-/// does not exist, it falls to zero: such a range moves nothing.
+/// Distance from position to anchor, m (same frame).
+inline double range(const Eigen::Vector3d& position_m, const Eigen::Vector3d& anchor_m) {
+    return sight_of(position_m, anchor_m).range_m;
+}
+
+/// Gradient of range() by position. On the anchor itself, where it does not exist, it is zero: such a range moves
+/// nothing.
 inline Eigen::Vector3d range_gradient(const Eigen::Vector3d& position_m, const Eigen::Vector3d& anchor_m) {
-    const Eigen::Vector3d from_anchor_m = position_m - anchor_m;
-    return from_anchor_m / std::max(from_anchor_m.norm(), on_anchor_m);
+    return sight_of(position_m, anchor_m).gradient;
 }
 
 /// distance(position, b) - distance(position, a), m: paper 000 eq. 1 with a as the master station.

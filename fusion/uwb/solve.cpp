@@ -77,17 +77,15 @@ template <int D>
 Eigen::Vector3d middle(const Spread<D>& spread) {
     Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
     middle_m.head<D>() = spread.centroid_m;
-    if (spread.thickness_m < thin_share * spread.length_m) middle_m.head<D>() += spread.width_m * spread.normal;
+    if (spread.thickness_m < thin_share * spread.extent_m) middle_m.head<D>() += spread.extent_m * spread.normal;
     return middle_m;
 }
 
 /// What is known to be wrong before any search.
 template <int D>
 Exclusion reason_against(const Spread<D>& spread) {
-    const bool flat = spread.thickness_m < flat_share * spread.length_m;
-    const bool line = D == 3 && spread.width_m < flat_share * spread.length_m;
-    if (line) return Exclusion::geometry_degenerate;
-    return flat ? Exclusion::geometry_mirror : Exclusion::none;
+    if (D == 3 && spread.width_share < flat_share) return Exclusion::geometry_degenerate;
+    return spread.thickness_m < flat_share * spread.extent_m ? Exclusion::geometry_mirror : Exclusion::none;
 }
 
 template <int D>

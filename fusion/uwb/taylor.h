@@ -15,10 +15,11 @@ struct Minimum {
     double cost = 0;
     bool converged = false;
 
-    /// Whether a position is this minimum, but for a tenth of a standard deviation.
+    /// Whether a position is this minimum, but for one standard deviation and no more than a metre: one that is almost
+    /// flat must not swallow the others.
     bool is_at(const Eigen::Vector3d& other_m) const {
         const Eigen::Matrix<double, D, 1> apart = (other_m - position_m).template head<D>();
-        return apart.dot(information * apart) < 0.01;
+        return apart.dot(information * apart) < 1 && apart.squaredNorm() < 1;
     }
 };
 
