@@ -54,8 +54,12 @@ TEST_P(SolveDegenerate, IsRefusedWithItsReasonOrSolved) {
     const Fix by_differences =
         solve_differences(differences_from(d.tag, d.anchors, against_first(d.anchors)), settings);
     EXPECT_EQ(exclusion_name(by_differences.reason), exclusion_name(d.of_differences));
-    if (by_ranges.reason == used) EXPECT_LT(error_m(by_ranges, d.tag), 1e-3);
-    if (by_differences.reason == used) EXPECT_LT(error_m(by_differences, d.tag), 1e-3);
+    if (by_ranges.reason == used) {
+        EXPECT_LT(error_m(by_ranges, d.tag), 1e-3);
+    }
+    if (by_differences.reason == used) {
+        EXPECT_LT(error_m(by_differences, d.tag), 1e-3);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -106,10 +110,14 @@ TEST(Solve, AbsurdButFiniteNumbersGiveAReasonOrFiniteNumbers) {
         ranges[1].range_m = absurd;
         ranges[2].sigma_m = std::abs(absurd);
         const Fix fix = solve_ranges(ranges, {});
-        if (fix.reason == used) EXPECT_TRUE(vector(fix.position_site_m).allFinite());
+        if (fix.reason == used) {
+            EXPECT_TRUE(vector(fix.position_site_m).allFinite());
+        }
         ranges[3].anchor_site_m[0] = absurd;
         const Fix moved = solve_ranges(ranges, {});
-        if (moved.reason == used) EXPECT_TRUE(vector(moved.position_site_m).allFinite());
+        if (moved.reason == used) {
+            EXPECT_TRUE(vector(moved.position_site_m).allFinite());
+        }
     }
 }
 
