@@ -28,7 +28,7 @@ struct TickItem {
     Timestamp tick{};
     Duration late{}; ///< from the tick to the thread running again
     std::uint64_t ticks = 0;
-    std::uint64_t overruns = 0; ///< ticks that came late by more than one period
+    std::uint64_t overruns = 0;      ///< ticks that came late by more than one period
     std::uint64_t poses_dropped = 0; ///< the publisher did not keep up
     bool realtime = false;
     EngineCounters engine;
