@@ -1,4 +1,4 @@
-// Option tables as YAML lines.
+// Option tables as YAML lines, and as tables of a reference page.
 #pragma once
 
 #include "fusion/option.h"
@@ -19,5 +19,8 @@ std::string print_block(std::span<const ShownOptions> tables, std::size_t indent
 
 /// "{name: value, name: value}"
 std::string print_flow(const ShownOptions& table);
+
+/// For a reference page (Markdown): name, default, what is allowed, and the sentence of every row.
+std::string reference_table(const ShownOptions& table);
 
 } // namespace locus::config

@@ -43,7 +43,9 @@ std::string allowed_text(const OptionRow& row, const void* settings) {
     return fmt::format("{}{}{}", type_name(row.get(settings)), limits.empty() ? "" : ", ", limits);
 }
 
-std::string table(const ShownOptions& options) {
+} // namespace
+
+std::string reference_table(const ShownOptions& options) {
     if (options.rows.empty()) return "\nNo settings of its own.\n";
     std::string text = "\n| setting | default | allowed | |\n|---|---|---|---|\n";
     for (const auto& row : options.rows)
@@ -52,16 +54,18 @@ std::string table(const ShownOptions& options) {
     return text;
 }
 
+namespace {
+
 std::string list_sections() {
     return fmt::format("\n## site\n{}\n### site.anchors\n\nA list; each item:\n{}\n### site.origin\n\nOnly for sites "
                        "that have a place on the Earth (GNSS).\n{}\n## targets\n\nA list of the tags that have a name "
                        "or an estimator of their own; each item:\n{}\n## inputs\n\nA list. Each item has the settings "
                        "below, and beside them, in the same map, those of its transport and of its decoder:\n{}",
-                       table({site_options, std::make_unique<Site>().get()}),
-                       table({anchor_options, std::make_unique<Anchor>().get()}),
-                       table({origin_options, std::make_unique<Wgs84Anchor>().get()}),
-                       table({target_options, std::make_unique<TargetSettings>().get()}),
-                       table({input_options, std::make_unique<InputSettings>().get()}));
+                       reference_table({site_options, std::make_unique<Site>().get()}),
+                       reference_table({anchor_options, std::make_unique<Anchor>().get()}),
+                       reference_table({origin_options, std::make_unique<Wgs84Anchor>().get()}),
+                       reference_table({target_options, std::make_unique<TargetSettings>().get()}),
+                       reference_table({input_options, std::make_unique<InputSettings>().get()}));
 }
 
 /// One heading and table for each row of the table of transports, decoders or estimators.
@@ -69,14 +73,14 @@ std::string modules(std::string_view kind, const auto& rows) {
     std::string text;
     for (const auto& row : rows)
         text += fmt::format("\n### {} `{}`\n\n{}\n{}", kind, row.name, row.about,
-                            table({row.options.rows, row.options.make().get()}));
+                            reference_table({row.options.rows, row.options.make().get()}));
     return text;
 }
 
 std::string section_page(const FlatSection& section) {
     Settings defaults;
     return fmt::format("\n## {}\n\n{}\n{}", section.name, section.about,
-                       table({section.rows, section.settings(defaults)}));
+                       reference_table({section.rows, section.settings(defaults)}));
 }
 
 } // namespace

@@ -30,6 +30,7 @@ struct SimulateOptions {
     std::optional<std::int64_t> seed;
     bool fast = false;
     bool print_config = false;
+    bool reference = false;
 };
 
 volatile std::sig_atomic_t stop = 0;
@@ -121,6 +122,11 @@ void apply(const SimulateOptions& options, SimulationSettings& settings) {
 }
 
 int simulate_file(const SimulateOptions& options) try {
+    if (options.reference) {
+        fmt::print("{}", scenario_page());
+        return exit_yes;
+    }
+    if (options.scenario.empty()) throw std::runtime_error("which scenario? see locus simulate --help");
     auto [scenario, problems] = load_scenario(options.scenario);
     for (const ConfigProblem& problem : problems) complain(to_string(problem));
     if (!scenario) return exit_usage;
@@ -140,7 +146,7 @@ int simulate_file(const SimulateOptions& options) try {
 void add_simulate(CLI::App& root, int& exit_code) {
     auto* const command = root.add_subcommand("simulate", "plays a scenario through simulated devices or into a file");
     const auto options = std::make_shared<SimulateOptions>();
-    command->add_option("scenario", options->scenario, "scenario file (YAML)")->required();
+    command->add_option("scenario", options->scenario, "scenario file (YAML)");
     command->add_option("--record", options->record, "also write what the devices send to this recording (*.log)");
     command->add_option("--truth", options->truth, "write where the targets truly are (TUM; OUT-NAME.tum for several)");
     command->add_option("--truth-rate", options->truth_rate_hz, "lines of truth a second")
@@ -152,6 +158,7 @@ void add_simulate(CLI::App& root, int& exit_code) {
     command->add_flag("--fast", options->fast, "as fast as possible, into the recording only");
     command->add_flag("--print-config", options->print_config,
                       "print the daemon's configuration for this scenario, and end");
+    command->add_flag("--reference", options->reference, "print the page of everything a scenario can say, and end");
     command->add_option("--socket", options->socket, "socket to put into that configuration")->envname("LOCUS_SOCKET");
     command->footer("Examples:\n"
                     "  locus simulate hall.yaml --print-config > locusd.yaml\n"

@@ -114,4 +114,7 @@ ScenarioResult load_scenario_text(std::string_view yaml, const std::string& file
 /// The daemon's configuration that listens to this scenario's sensors: site, targets, inputs; `socket` when not empty.
 std::string print_configuration(const Scenario& scenario, const std::string& socket);
 
+/// The reference page (Markdown) of everything a scenario file can say.
+std::string scenario_page();
+
 } // namespace locus::simulate

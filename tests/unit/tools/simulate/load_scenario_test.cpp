@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 namespace locus::simulate {
@@ -94,6 +95,12 @@ TEST(PrintConfiguration, IsWhatTheDaemonLoads) {
     EXPECT_EQ(loaded.settings->inputs.at(0).name, "uwb");
     EXPECT_EQ(loaded.settings->inputs.at(0).delay_s, 0.02);
     EXPECT_EQ(loaded.settings->publish.socket, "/tmp/a.sock");
+}
+
+TEST(ScenarioPage, IsTheOneInDocs) {
+    std::ifstream file(LOCUS_SOURCE_DIR "/docs/scenario.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_TRUE(page == scenario_page()) << "write it anew: locus simulate --reference > docs/scenario.md";
 }
 
 TEST(Examples, ScenariosLoadAndGiveConfigurations) {
