@@ -91,11 +91,12 @@ void engine_idle_tick(benchmark::State& state) {
     const auto tags = static_cast<int>(state.range(0));
     const EngineSettings settings = hall(tags);
     Engine engine(settings);
+    auto tick = at(0);
     for (const auto& each : measurements(settings.site, tags, 0)) {
         engine.submit(each.measurement, each.arrival);
-        if (each.measurement.sequence % 8 == 7) engine.step(each.arrival);
+        if (each.arrival >= tick + duration_from_s(tick_s)) engine.step(tick = each.arrival);
     }
-    auto tick = at(sweep_s * sweeps_in_run);
+    tick = at(sweep_s * sweeps_in_run);
     for (auto _ : state) benchmark::DoNotOptimize(engine.step(tick += Duration{1000}).data());
     state.SetItemsProcessed(state.iterations() * tags);
 }
