@@ -1,5 +1,5 @@
-// A serial port, by libserialport: exclusive (flock and TIOCEXCL), raw, any baud rate. The path is resolved each time
-// it is opened, so a /dev/serial/by-id/ name finds its device again after it was plugged in elsewhere.
+// A serial port, by libserialport: exclusive, raw, any baud rate. The path is resolved each time it is opened, so a
+// /dev/serial/by-id/ name finds its device again after it was plugged in elsewhere.
 #include "drivers/transport/rows.h"
 #include "drivers/transport/stream.h"
 
@@ -75,8 +75,7 @@ std::string open_sentence(const std::string& path) {
         return "no permission for '" + path + "': add this user to the group that `ls -lL` shows (dialout)";
     case EBUSY:
     case EAGAIN:
-        return "'" + path + "' is in use by another program, maybe a running locusd: `fuser -v " + path +
-               "` says which";
+        return in_use_sentence(path);
     default:
         return "'" + path + "' cannot be opened: " + std::strerror(errno);
     }
@@ -124,8 +123,11 @@ class Serial : public StreamTransport {
 
     bool set_up() {
         int fd = -1;
-        const bool ready = configure(port_.get(), settings_) && sp_get_port_handle(port_.get(), &fd) == SP_OK;
-        if (!ready) {
+        if (sp_get_port_handle(port_.get(), &fd) != SP_OK || !lock_device(fd)) {
+            close();
+            return refuse(in_use_sentence(device_));
+        }
+        if (!configure(port_.get(), settings_)) {
             close();
             return refuse("'" + device_ + "' does not take " + std::to_string(settings_.baud_bd) +
                           " Bd with these bits, parity and stop bits");

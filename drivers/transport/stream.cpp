@@ -4,7 +4,9 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -30,7 +32,7 @@ std::string open_sentence(const std::string& path, std::string_view kind, int re
     case EPERM:
         return "no permission to read and write " + device + ": see `ls -l` and the groups of this user";
     case EBUSY:
-        return device + " is in use by another program, maybe a running locusd: `fuser -v " + path + "` says which";
+        return in_use_sentence(path);
     default:
         return device + " cannot be opened: " + std::strerror(reason);
     }
@@ -41,23 +43,31 @@ std::string open_sentence(const std::string& path, std::string_view kind, int re
 ReadStatus StreamTransport::read(PacketSink& sink, Duration timeout) {
     pollfd waiting{fd_.get(), POLLIN, 0};
     const int ready = ::poll(&waiting, 1, to_ms(timeout));
-    const Timestamp woken = receive_stamp(monotonic_now());
+    const Timestamp woken = monotonic_now();
     if (ready <= 0) return ready == 0 || errno == EINTR ? ReadStatus::ok : lost(std::strerror(errno));
     if (waiting.revents & POLLIN) return take(sink, woken);
     return lost("the other end hung up or it was unplugged");
 }
 
 ReadStatus StreamTransport::take(PacketSink& sink, Timestamp woken) {
-    std::array<std::uint8_t, max_chunk> chunk; // not cleared: read() says how much of it is filled
+    std::array<std::uint8_t, 4096> chunk; // not cleared: read() says how much of it is filled
     const ssize_t size = ::read(fd_.get(), chunk.data(), chunk.size());
     if (size == 0) return lost("the other end closed it or it was unplugged");
     if (size < 0) return errno == EAGAIN || errno == EINTR ? ReadStatus::ok : lost(std::strerror(errno));
-    Packet packet;
-    packet.time = woken;
-    packet.byte_time = byte_time_;
-    packet.data = std::span{chunk}.first(static_cast<std::size_t>(size));
-    sink.packet(packet);
+    hand_over(std::span{chunk}.first(static_cast<std::size_t>(size)), woken, sink);
     return ReadStatus::ok;
+}
+
+/// Each packet is stamped with the time of its own last byte.
+void StreamTransport::hand_over(std::span<const std::uint8_t> bytes, Timestamp woken, PacketSink& sink) const {
+    while (!bytes.empty()) {
+        Packet packet;
+        packet.data = bytes.first(std::min(bytes.size(), max_packet));
+        bytes = bytes.subspan(packet.data.size());
+        packet.time = receive_stamp(woken - static_cast<std::int64_t>(bytes.size()) * byte_time_);
+        packet.byte_time = byte_time_;
+        sink.packet(packet);
+    }
 }
 
 bool StreamTransport::write(std::span<const std::uint8_t> bytes) {
@@ -84,9 +94,20 @@ ReadStatus StreamTransport::lost(std::string_view how) {
     return ReadStatus::lost;
 }
 
+bool lock_device(int fd) { return ::flock(fd, LOCK_EX | LOCK_NB) == 0; }
+
+std::string in_use_sentence(const std::string& path) {
+    return "'" + path + "' is in use by another program, maybe a running locusd: `fuser -v " + path + "` says which";
+}
+
 UniqueFd open_device(const std::string& path, std::string_view kind, std::string& error) {
     UniqueFd fd{::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)};
-    if (!fd) error = open_sentence(path, kind, errno);
+    if (!fd) {
+        error = open_sentence(path, kind, errno);
+    } else if (!lock_device(fd.get())) {
+        error = in_use_sentence(path);
+        fd.reset();
+    }
     return fd;
 }
 

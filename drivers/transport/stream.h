@@ -12,12 +12,13 @@ namespace locus {
 class StreamTransport : public Transport {
   public:
     void close() override { fd_.reset(); }
-    /// One packet per wake-up, at most `max_chunk` bytes, stamped right after the wait (CLOCK_MONOTONIC).
+    /// The bytes of one wake-up, stamped right after the wait (CLOCK_MONOTONIC), in packets of at most `max_packet`.
     ReadStatus read(PacketSink& sink, Duration timeout) override;
     bool write(std::span<const std::uint8_t> bytes) override;
     std::string_view last_error() const override { return error_; }
 
-    static constexpr std::size_t max_chunk = 4096;
+    /// Longer packets would make lines of a recording that canplayer refuses to skip (400 characters).
+    static constexpr std::size_t max_packet = 128;
 
   protected:
     explicit StreamTransport(std::string device) : device_{std::move(device)} {}
@@ -30,13 +31,20 @@ class StreamTransport : public Transport {
 
   private:
     ReadStatus take(PacketSink& sink, Timestamp woken);
+    void hand_over(std::span<const std::uint8_t> bytes, Timestamp woken, PacketSink& sink) const;
     ReadStatus lost(std::string_view how);
 
     std::string error_;
 };
 
-/// Opens a path for reading and writing without ever blocking. On failure the sentence says what `kind` of device was
-/// wanted and what to do.
+/// Keeps other programs of ours off the device, also those of root, whom TIOCEXCL does not stop. False: one has it.
+bool lock_device(int fd);
+
+/// "'/dev/x' is in use ...".
+std::string in_use_sentence(const std::string& path);
+
+/// Opens a path for reading and writing, for this program alone, without ever blocking. On failure the sentence says
+/// what `kind` of device was wanted and what to do.
 UniqueFd open_device(const std::string& path, std::string_view kind, std::string& error);
 
 } // namespace locus

@@ -68,6 +68,32 @@ TEST(Pty, SilenceIsNoLoss) {
     EXPECT_TRUE(sink.kept.empty());
 }
 
+TEST(Pty, ALongChunkComesInShortPackets) {
+    ScratchFolder folder;
+    SimulatedDevice device{folder / "uwb"};
+    const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
+    ASSERT_TRUE(pty->open());
+    std::string wire;
+    for (int i = 0; i < 1000; ++i) wire += char(i % 251);
+    device.send(wire);
+    KeepingSink sink;
+    ASSERT_EQ(read_bytes(*pty, sink, wire.size()), ReadStatus::ok);
+    EXPECT_EQ(sink.text, wire);
+    for (const auto& kept : sink.kept) EXPECT_LE(kept.data.size(), 128u);
+}
+
+TEST(Pty, IsForOneReader) {
+    ScratchFolder folder;
+    SimulatedDevice device{folder / "uwb"};
+    const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
+    const auto other = make_transport("pty", {{"path", folder / "uwb"}});
+    ASSERT_TRUE(pty->open());
+    EXPECT_FALSE(other->open());
+    EXPECT_THAT(std::string{other->last_error()}, HasSubstr("in use by another program"));
+    pty->close();
+    EXPECT_TRUE(other->open()) << other->last_error();
+}
+
 TEST(Pty, ClosedMasterIsALossAndTheLinkIsFollowedAnew) {
     ScratchFolder folder;
     auto device = std::make_unique<SimulatedDevice>(folder / "uwb");

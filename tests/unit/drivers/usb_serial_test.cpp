@@ -29,6 +29,11 @@ class UsbSerial : public testing::Test {
         // Its USB device stays when the port goes: this is how it is plugged in again.
         authorized_ = std::filesystem::canonical("/sys/class/tty/ttyACM0/device/..") / "authorized";
         std::filesystem::create_symlink(port, by_id_);
+        open_gadget();
+    }
+
+    /// Anew after each unplugging: the kernel hangs it up.
+    void open_gadget() {
         device_.reset(::open(gadget, O_RDWR | O_NOCTTY));
         termios terminal{};
         ::tcgetattr(device_.get(), &terminal);
@@ -59,6 +64,18 @@ TEST_F(UsbSerial, BytesPassWithTheTimeOfAByte) {
     EXPECT_EQ(sink_.kept.front().packet.byte_time, Duration{86'806}) << "10 bits at 115200 Bd";
 }
 
+TEST_F(UsbSerial, ALongChunkIsDatedPieceByPiece) {
+    const auto serial = this->serial();
+    ASSERT_TRUE(serial->open()) << serial->last_error();
+    ASSERT_TRUE(device_says(std::string(300, 'x')));
+    std::this_thread::sleep_for(200ms); // so that one read takes it all
+    ASSERT_EQ(read_bytes(*serial, sink_, 300), ReadStatus::ok);
+    ASSERT_EQ(sink_.kept.size(), 3u);
+    for (const auto& kept : sink_.kept) EXPECT_LE(kept.data.size(), 128u);
+    const Duration apart = sink_.kept[2].packet.time - sink_.kept[1].packet.time;
+    EXPECT_LE(std::chrono::abs(apart - 44 * Duration{86'806}), 1us) << "the last piece has 44 bytes";
+}
+
 TEST_F(UsbSerial, IsExclusive) {
     const auto serial = this->serial(), other = this->serial();
     ASSERT_TRUE(serial->open()) << serial->last_error();
@@ -83,6 +100,7 @@ TEST_F(UsbSerial, AnInputSurvivesUnplugAndReplug) {
     EXPECT_THAT(input.status().trouble.get(), testing::AnyOf(HasSubstr("is gone"), HasSubstr("is not there")));
     plug(true);
     ASSERT_TRUE(is(InputState::open)) << input.status().trouble.get();
+    open_gadget();
     EXPECT_TRUE(device_says("two") && until([&] { return input.status().bytes >= 6; }));
     thread.request_stop();
     thread.join();
