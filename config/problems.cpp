@@ -14,19 +14,21 @@ std::string to_string(const ConfigProblem& problem) {
 
 namespace config {
 
-void Problems::add(Mark mark, std::string message) {
-    if (problems_.size() < max_problems)
-        problems_.push_back({file_, mark.line, mark.column, std::move(message)});
-    else if (problems_.size() == max_problems)
-        problems_.push_back({file_, mark.line, mark.column, "there are more problems; these come first"});
+// In the order of the file, and within a place in the order they were found.
+void Problems::insert(Mark mark, std::string message) {
+    const auto place = [](const ConfigProblem& problem) { return std::tie(problem.line, problem.column); };
+    ConfigProblem problem{file_, mark.line, mark.column, std::move(message)};
+    problems_.insert(std::ranges::upper_bound(problems_, place(problem), {}, place), std::move(problem));
 }
 
-std::vector<ConfigProblem> Problems::take() {
-    std::stable_sort(problems_.begin(), problems_.end(), [](const ConfigProblem& a, const ConfigProblem& b) {
-        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
-    });
-    return std::move(problems_);
+void Problems::add(Mark mark, std::string message) {
+    if (problems_.size() < max_problems)
+        insert(mark, std::move(message));
+    else if (problems_.size() == max_problems)
+        insert(mark, "there are more problems; these come first");
 }
+
+std::vector<ConfigProblem> Problems::take() { return std::move(problems_); }
 
 } // namespace config
 } // namespace locus

@@ -30,6 +30,8 @@ class Problems {
     static constexpr std::size_t max_problems = 100;
 
   private:
+    void insert(Mark mark, std::string message);
+
     std::string file_;
     std::vector<ConfigProblem> problems_;
 };
