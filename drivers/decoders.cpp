@@ -9,7 +9,7 @@
 
 namespace locus {
 namespace {
-constexpr std::array rows{
+constexpr std::array decoder_rows{
     DecoderRow{"trek1000", "Decawave TREK1000, EVK1000 and HaoruTech modules: ranges as ASCII lines", Wire::bytes,
                option_table<uwb::TrekSettings>(uwb::trek_options), uwb::make_trek1000},
     DecoderRow{"dw1000_can", "DW1000 ranges and range differences over CAN (docs/can-dw1000.md)", Wire::can,
@@ -19,7 +19,7 @@ constexpr std::array rows{
 };
 }
 
-std::span<const DecoderRow> decoder_table() { return rows; }
+std::span<const DecoderRow> decoder_table() { return decoder_rows; }
 
 const DecoderRow* find_decoder(std::string_view name) {
     const auto table = decoder_table();

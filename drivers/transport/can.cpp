@@ -38,7 +38,7 @@ constexpr std::array options{
 
 constexpr int receive_buffer_bytes = 1 << 20;
 /// A stamp further than that from the time of reading was spoilt by somebody setting the clock.
-constexpr Duration implausible = std::chrono::seconds{5};
+constexpr Duration implausible_age = std::chrono::seconds{5};
 
 template <class Value>
 void set(int fd, int level, int option, const Value& value) {
@@ -108,7 +108,7 @@ class Can : public Transport {
     Timestamp stamp(const ControlData& control, Duration offset, Timestamp now) {
         count_drops(control.dropped.value_or(dropped_here_));
         Timestamp time = control.kernel_realtime ? Timestamp{*control.kernel_realtime - offset} : now;
-        if (time > now || time < now - implausible) time = now;
+        if (time > now || time < now - implausible_age) time = now;
         if (control.adapter && settings_.adapter_stamps) time = adapter_clock_.to_monotonic(*control.adapter, time);
         return receive_stamp(time);
     }

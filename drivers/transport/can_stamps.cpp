@@ -13,7 +13,7 @@ namespace {
 
 constexpr Duration window = std::chrono::seconds{1};
 /// No frame waits that long in an adapter: the adapter's clock was restarted or has wrapped.
-constexpr Duration implausible = std::chrono::milliseconds{100};
+constexpr Duration implausible_step = std::chrono::milliseconds{100};
 
 std::optional<Duration> from_timespec(const timespec& time) {
     const bool sane = time.tv_sec >= 0 && time.tv_sec < 4'000'000'000 && (time.tv_sec != 0 || time.tv_nsec != 0);
@@ -56,7 +56,7 @@ Duration realtime_offset() {
 Timestamp AdapterClock::to_monotonic(Duration adapter, Timestamp kernel) {
     const Duration difference = kernel.time_since_epoch() - adapter;
     const Duration least = std::min(least_now_, least_before_);
-    if (least == none || std::chrono::abs(difference - least) > implausible) {
+    if (least == none || std::chrono::abs(difference - least) > implausible_step) {
         least_now_ = least_before_ = difference;
         second_ends_ = kernel + window;
     } else if (kernel >= second_ends_) {

@@ -14,7 +14,7 @@ struct FifoSettings {
     std::string path;
 };
 
-constexpr std::array options{
+constexpr std::array fifo_options{
     required_option<&FifoSettings::path>("path", "Named pipe, as `mkfifo` makes it."),
 };
 
@@ -45,7 +45,7 @@ TransportRow fifo_row() {
             "Named pipe; writers may come and go.",
             Wire::bytes,
             false,
-            option_table<FifoSettings>(options),
+            option_table<FifoSettings>(fifo_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Fifo>(*static_cast<const FifoSettings*>(settings));
             }};

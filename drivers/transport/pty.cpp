@@ -14,7 +14,7 @@ struct PtySettings {
     std::string path;
 };
 
-constexpr std::array options{
+constexpr std::array pty_options{
     required_option<&PtySettings::path>("path", "Pseudo-terminal, or a link to one, e.g. what `socat pty,link=` made."),
 };
 
@@ -47,7 +47,7 @@ TransportRow pty_row() {
             "Pseudo-terminal, for simulators and socat.",
             Wire::bytes,
             false,
-            option_table<PtySettings>(options),
+            option_table<PtySettings>(pty_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Pty>(*static_cast<const PtySettings*>(settings));
             }};

@@ -22,7 +22,7 @@ struct RecordingSettings {
     bool loop = false;
 };
 
-constexpr std::array options{
+constexpr std::array recording_options{
     required_option<&RecordingSettings::path>("path", "File that `locus record` or candump -l wrote."),
     option<&RecordingSettings::input>("input", "Plays only the lines of this input or interface; empty: every line."),
     option<&RecordingSettings::speed>(
@@ -124,7 +124,7 @@ TransportRow recording_row() {
             "A recorded *.log file, played at its own pace.",
             std::nullopt,
             false,
-            option_table<RecordingSettings>(options),
+            option_table<RecordingSettings>(recording_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Recording>(*static_cast<const RecordingSettings*>(settings));
             }};

@@ -26,7 +26,7 @@ struct SerialSettings {
     int stop_bits = 1;
 };
 
-constexpr std::array options{
+constexpr std::array serial_options{
     required_option<&SerialSettings::path>("path",
                                            "Device; a name of /dev/serial/by-id/ stays the same when replugged."),
     option<&SerialSettings::baud_bd>("baud_bd", "Bd", 50, 4'000'000, "Baud rate."),
@@ -148,7 +148,7 @@ TransportRow serial_row() {
             "Serial port or USB serial adapter.",
             Wire::bytes,
             false,
-            option_table<SerialSettings>(options),
+            option_table<SerialSettings>(serial_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Serial>(*static_cast<const SerialSettings*>(settings));
             }};

@@ -21,7 +21,7 @@ struct TcpSettings {
     double connect_timeout_s = 0.5;
 };
 
-constexpr std::array options{
+constexpr std::array tcp_options{
     required_option<&TcpSettings::host>(
         "host", "Address of the server; a number is better than a name, whose look-up may block for seconds."),
     option<&TcpSettings::port>("port", "", 1, 65535, "TCP port of the server.", {}, true),
@@ -101,7 +101,7 @@ TransportRow tcp_row() {
             "TCP client, e.g. of ser2net.",
             Wire::bytes,
             true,
-            option_table<TcpSettings>(options),
+            option_table<TcpSettings>(tcp_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Tcp>(*static_cast<const TcpSettings*>(settings));
             }};

@@ -1,12 +1,12 @@
 #include "fusion/uwb/epoch.h"
 
+#include "fusion/geometry/vector.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace locus::uwb {
 namespace {
-
-Eigen::Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Room for all anchors that may come; no_anchor is there. Returns how many are.
 int make_room(Epoch& epoch) {

@@ -1,6 +1,7 @@
 #include "fusion/uwb/epoch_keeper.h"
 
 #include "fusion/filter/gate.h"
+#include "fusion/geometry/vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 namespace locus::uwb {
 namespace {
 
-Eigen::Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 Vec3 array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 } // namespace

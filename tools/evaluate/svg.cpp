@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view grid_colour = "#e3e6ea", label_colour = "#5f6b7a";
 
-std::string_view name(Anchor anchor) {
+std::string_view name(TextAnchor anchor) {
     constexpr std::string_view names[] = {"start", "middle", "end"};
     return names[static_cast<int>(anchor)];
 }
@@ -69,7 +69,7 @@ void Svg::dot(Pixel at, double radius_px, std::string_view colour) {
     body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", at.x, at.y, radius_px, colour);
 }
 
-void Svg::text(Pixel at, std::string_view text, double size_px, std::string_view colour, Anchor anchor) {
+void Svg::text(Pixel at, std::string_view text, double size_px, std::string_view colour, TextAnchor anchor) {
     body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\">{}</text>\n",
                          at.x, at.y, size_px, colour, name(anchor), escaped(text));
 }
@@ -96,15 +96,15 @@ void Axes::draw(Svg& svg, std::span<const double> x_ticks, std::span<const doubl
     for (const double x : x_ticks) {
         const double at = (*this)(x, y_.low).x;
         svg.line({at, top_left_.y}, {at, bottom_right_.y}, {grid_colour});
-        svg.text({at, bottom_right_.y + 15}, fmt::format("{:.6g}", x), size_px, label_colour, Anchor::middle);
+        svg.text({at, bottom_right_.y + 15}, fmt::format("{:.6g}", x), size_px, label_colour, TextAnchor::middle);
     }
     for (const double y : y_ticks) {
         const double at = (*this)(x_.low, y).y;
         svg.line({top_left_.x, at}, {bottom_right_.x, at}, {grid_colour});
-        svg.text({top_left_.x - 6, at + 4}, fmt::format("{:.6g}", y), size_px, label_colour, Anchor::end);
+        svg.text({top_left_.x - 6, at + 4}, fmt::format("{:.6g}", y), size_px, label_colour, TextAnchor::end);
     }
     svg.text({(top_left_.x + bottom_right_.x) / 2, bottom_right_.y + 32}, x_title, size_px, label_colour,
-             Anchor::middle);
+             TextAnchor::middle);
     svg.text({top_left_.x, top_left_.y - 8}, y_title, size_px, label_colour);
 }
 

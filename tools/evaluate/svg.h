@@ -12,7 +12,7 @@ struct Pixel {
     double x = 0, y = 0;
 };
 
-enum class Anchor { start, middle, end };
+enum class TextAnchor { start, middle, end };
 
 struct Stroke {
     std::string_view colour;
@@ -29,7 +29,8 @@ class Svg {
     /// it.
     void curve(std::span<const Pixel> points, const Stroke& stroke);
     void dot(Pixel at, double radius_px, std::string_view colour);
-    void text(Pixel at, std::string_view text, double size_px, std::string_view colour, Anchor anchor = Anchor::start);
+    void text(Pixel at, std::string_view text, double size_px, std::string_view colour,
+              TextAnchor anchor = TextAnchor::start);
 
     /// The whole file.
     std::string str() const { return body_ + "</svg>\n"; }

@@ -1,5 +1,7 @@
 #include "tools/simulate/world.h"
 
+#include "fusion/geometry/vector.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -11,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double step_m = 0.7; // of a person walking
-
-Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 Path make_path(const Motion& motion) {
     if (motion.path == "figure_of_eight")

@@ -35,3 +35,7 @@ print(inputs.get(sys.argv[1], {}).get(sys.argv[2], ""))' "$1" "$2"
 }
 input_is() { [ "$(input_field "$1" "$2")" = "$3" ]; }
 main_pid() { systemctl show -p MainPID --value locusd; }
+
+# A minute, because the machine is emulated and may be shared; on a quiet one a second is enough.
+has_poses() { locus wait --target "$1" --better-than 1.0 --timeout 60; }
+says() { echo "expected: $1"; return 1; }

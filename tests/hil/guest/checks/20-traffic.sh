@@ -2,12 +2,12 @@
 
 check_20_can_frames_become_poses() {
   start_can_feed
-  locus wait --target cart --better-than 1.0 --timeout 30 && locus watch --json --target cart --count 3
+  has_poses cart && locus watch --json --target cart --count 3
 }
 
 check_21_usb_serial_becomes_poses() {
   start_serial_feed
-  locus wait --target still --better-than 1.0 --timeout 30 || return 1
+  has_poses still || return 1
   locus watch --json --target still --count 1 | python3 -c '
 import json, math, sys
 pose = json.loads(sys.stdin.readline())

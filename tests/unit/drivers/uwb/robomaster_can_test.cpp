@@ -25,13 +25,13 @@ struct Module {
 };
 
 /// protocols.md E-4b: x 3.12 m, y 4.55 m, yaw 9000, distances 2.51, 4.02, 3.33, 2.87 m.
-const std::array<CanFrame, 3> example{{{0x259, 8, {0x38, 0x01, 0xC7, 0x01, 0x28, 0x23, 0xFB, 0x00}},
-                                       {0x259, 8, {0x92, 0x01, 0x4D, 0x01, 0x1F, 0x01, 0x00, 0x00}},
-                                       {0x259, 6, {}}}};
+const std::array<CanFrame, 3> bus_example{{{0x259, 8, {0x38, 0x01, 0xC7, 0x01, 0x28, 0x23, 0xFB, 0x00}},
+                                           {0x259, 8, {0x92, 0x01, 0x4D, 0x01, 0x1F, 0x01, 0x00, 0x00}},
+                                           {0x259, 6, {}}}};
 
 TEST(RobomasterCan, ReadsTheExample) {
     Module module;
-    module.send(example);
+    module.send(bus_example);
     EXPECT_EQ(module.sink.frames, 1);
     const auto ranges = module.sink.all<Range>();
     ASSERT_EQ(ranges.size(), 4u);
@@ -47,8 +47,8 @@ TEST(RobomasterCan, ReadsTheExample) {
 TEST(RobomasterCan, WritesTheExample) {
     const auto frames = encode(RobomasterRecord{312, 455, 9000, {251, 402, 333, 287}, 0}, RobomasterSettings{});
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(frames[i].data, example[i].data);
-        EXPECT_EQ(frames[i].length, example[i].length);
+        EXPECT_EQ(frames[i].data, bus_example[i].data);
+        EXPECT_EQ(frames[i].length, bus_example[i].length);
         EXPECT_EQ(frames[i].id, 0x259u);
     }
 }
@@ -69,9 +69,9 @@ TEST(RobomasterCan, AWholeRecordAfterAnyLossIsDelivered) {
     for (std::size_t lost = 0; lost < 3; ++lost) {
         Module module;
         for (std::size_t i = 0; i < 3; ++i)
-            if (i != lost) module.send(example[i]);
+            if (i != lost) module.send(bus_example[i]);
         module.time_ms += 20; // the module's next record
-        module.send(example);
+        module.send(bus_example);
         EXPECT_EQ(module.sink.frames, 1) << lost;
         EXPECT_EQ(module.sink.all<Range>().size(), 4u) << lost;
         EXPECT_FALSE(module.sink.refusals.empty()) << lost;
@@ -80,18 +80,18 @@ TEST(RobomasterCan, AWholeRecordAfterAnyLossIsDelivered) {
 
 TEST(RobomasterCan, ALostEndIsSeenWithoutAGap) {
     Module module;
-    module.send(example[0]);
-    module.send(example[1]);
-    module.send(example);
+    module.send(bus_example[0]);
+    module.send(bus_example[1]);
+    module.send(bus_example);
     EXPECT_EQ(module.sink.frames, 1);
     EXPECT_EQ(module.sink.refusals, std::vector{Refusal::malformed});
 }
 
 TEST(RobomasterCan, AGapOfMoreThanTenMillisecondsBeginsARecordAnew) {
     Module module;
-    module.send(example[0]);
-    module.send(example[1], 11);
-    module.send(example[2]);
+    module.send(bus_example[0]);
+    module.send(bus_example[1], 11);
+    module.send(bus_example[2]);
     EXPECT_EQ(module.sink.frames, 0);
     EXPECT_TRUE(module.sink.items.empty());
 }
@@ -108,15 +108,15 @@ TEST(RobomasterCan, OtherIdentifiersAreNotItsOwn) {
     module.send(CanFrame{0x258, 8, {}});
     module.send(CanFrame{0x80000259, 8, {}});
     EXPECT_TRUE(module.sink.refusals.empty());
-    module.send(example);
+    module.send(bus_example);
     EXPECT_EQ(module.sink.frames, 1);
 }
 
 TEST(RobomasterCan, ResetForgetsTheHalfRecord) {
     Module module;
-    module.send(example[0]);
+    module.send(bus_example[0]);
     module.decoder->reset();
-    module.send(example);
+    module.send(bus_example);
     EXPECT_EQ(module.sink.frames, 1);
     EXPECT_TRUE(module.sink.refusals.empty());
 }

@@ -1,6 +1,7 @@
 // Halls that the solvers are tried in, and observations made in them. Geometries of shared/bench/crlb.py.
 #pragma once
 
+#include "fusion/geometry/vector.h"
 #include "fusion/uwb/range_model.h"
 #include "fusion/uwb/solve.h"
 
@@ -24,7 +25,6 @@ inline const Anchors box{{0, 0, 0.2}, {10, 0, 2.8}, {10, 8, 0.2}, {0, 8, 2.8},
                          {0, 0, 2.8}, {10, 0, 0.2}, {10, 8, 2.8}, {0, 8, 0.2}};
 
 inline Vec3 array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-inline Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 inline std::vector<RangeTo> ranges_from(const Vector3d& tag, const Anchors& anchors) {
     std::vector<RangeTo> ranges;

@@ -97,9 +97,9 @@ TEST(Solve, RefusesWhatIsNotFinite) {
         EXPECT_EQ(solve_ranges(ranges, {}).reason, Exclusion::not_finite);
         EXPECT_EQ(solve_ranges(good, planar(wrong)).reason, Exclusion::not_finite);
     }
-    for (const double sigma_m : {0.0, -0.1}) {
+    for (const double bad_sigma_m : {0.0, -0.1}) {
         auto ranges = good;
-        ranges[0].sigma_m = sigma_m;
+        ranges[0].sigma_m = bad_sigma_m;
         EXPECT_EQ(solve_ranges(ranges, {}).reason, Exclusion::not_finite);
     }
 }

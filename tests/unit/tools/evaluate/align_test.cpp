@@ -82,7 +82,7 @@ double squares(const std::vector<Pair>& pairs, const Similarity& similarity) {
 class AlignBy : public testing::TestWithParam<Alignment> {};
 
 TEST_P(AlignBy, KnownTransformationsComeBack) {
-    EXPECT_TRUE(rc::check([this](unsigned seed) {
+    EXPECT_TRUE(rc::check([](unsigned seed) {
         const auto [pairs, known] = scene(seed, GetParam(), 0);
         const Similarity found = align(pairs, GetParam());
         RC_ASSERT(std::abs(found.scale - known.scale) < 1e-9);
@@ -92,7 +92,7 @@ TEST_P(AlignBy, KnownTransformationsComeBack) {
 }
 
 TEST_P(AlignBy, NoNeighbourFitsBetter) {
-    EXPECT_TRUE(rc::check([this](unsigned seed) {
+    EXPECT_TRUE(rc::check([](unsigned seed) {
         const auto pairs = scene(seed, GetParam(), 0.3).pairs;
         const Similarity best = align(pairs, GetParam());
         RC_ASSERT(std::abs(best.rotation.determinant() - 1) < 1e-9);
