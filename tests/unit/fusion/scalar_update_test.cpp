@@ -51,6 +51,19 @@ TEST(ScalarUpdate, JosephHoldsForAGainThatIsNotKalmans) {
     EXPECT_LT((p.covariance - expected).norm(), 1e-12 * expected.norm());
 }
 
+TEST(ScalarUpdate, APartOfTheCreditIsTheUpdateWithMoreNoise) {
+    std::mt19937 random(4);
+    Problem p = random_problem(random), noisier = p;
+    const double variance = 0.25, share = 0.4;
+    const auto prediction = predict_scalar(p.covariance, p.jacobian);
+    const double innovation_variance = prediction.state_variance + variance;
+    update_scalar(p.state, p.covariance, prediction, 0.7, variance, {share, share});
+    update_scalar(noisier.state, noisier.covariance, prediction, 0.7,
+                  innovation_variance / share - prediction.state_variance);
+    EXPECT_LT((p.state - noisier.state).norm(), 1e-12);
+    EXPECT_LT((p.covariance - noisier.covariance).norm(), 1e-12);
+}
+
 TEST(ScalarUpdate, MillionStepsKeepTheCovarianceSymmetricAndPositive) {
     std::mt19937 random(3);
     Problem p = random_problem(random);
