@@ -1,6 +1,5 @@
 #include "fusion/estimators/range_ekf.h"
 
-#include "fusion/filter/robust_weight.h"
 #include "fusion/filter/scalar_update.h"
 
 #include <algorithm>
@@ -11,19 +10,14 @@ namespace {
 
 using filter::TrackState;
 
-/// No device is better than this, whatever it says: a zero sigma would make the filter sure for ever.
-constexpr double least_sigma_m = 1e-3;
-/// Keys of wandering errors: anchors are called by their index, and one more is common to all ranges.
-constexpr std::int32_t common_range_error = -1;
 constexpr double kind_memory_s = 1;
-
-double noise_m(float stated_m, double otherwise_m) {
-    const double sigma_m = std::isfinite(stated_m) ? double{stated_m} : otherwise_m;
-    return std::max(sigma_m, least_sigma_m);
-}
 
 filter::TrackModel track_model(const RangeEkfSettings& s) {
     return {{s.acceleration_sigma_mps2, s.acceleration_time_s}, s.speed_sigma_mps, s.planar};
+}
+
+CarriedErrors carried_errors(const RangeEkfSettings& s) {
+    return {{s.anchor_error_sigma_m, s.anchor_error_time_s}, {s.common_range_error_sigma_m, no_limit}};
 }
 
 uwb::EpochSettings epoch_settings(const RangeEkfSettings& s) {
@@ -45,55 +39,14 @@ Missing missing_for(Exclusion reason) {
 
 RangeEkf::RangeEkf(const Site& site, const RangeEkfSettings& settings)
     : site_(&site), settings_(settings), gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
-      start_anew_cost_(gate_in_sigma_ * gate_in_sigma_), track_(track_model(settings)),
-      epoch_(site, epoch_settings(settings)), gates_(site.anchors.size()) {}
+      start_anew_cost_(gate_in_sigma_ * gate_in_sigma_), reader_(site, settings), errors_(carried_errors(settings)),
+      track_(track_model(settings)), epoch_(site, epoch_settings(settings)), robust_(settings.robust_scale),
+      gates_(site.anchors.size()) {}
 
 Verdict RangeEkf::update(const Measurement& measurement) noexcept {
-    Reading reading;
-    if (const auto* range = std::get_if<Range>(&measurement.observation))
-        reading = read(*range);
-    else if (const auto* difference = std::get_if<RangeDifference>(&measurement.observation))
-        reading = read(*difference);
-    else
-        reading.reason = Exclusion::unsupported_kind;
+    const RangeReader::Reading reading = reader_.read(measurement);
     if (reading.reason != Exclusion::none) return {reading.reason};
     return take(reading.sighting, measurement.time);
-}
-
-RangeEkf::Reading RangeEkf::read(const Range& range) const noexcept {
-    const std::int16_t anchor = index_of(range.anchor);
-    if (anchor == uwb::Sighting::nobody) return {{}, Exclusion::unknown_source};
-    if (!std::isfinite(range.range_m)) return {{}, Exclusion::not_finite};
-    if (std::abs(range.range_m) > settings_.max_range_m) return {{}, Exclusion::out_of_reach};
-    if (range.line_of_sight == LineOfSight::blocked && !settings_.use_blocked) return {{}, Exclusion::reported_blocked};
-    const Anchor& known = site_->anchors[static_cast<std::size_t>(anchor)];
-    const double otherwise_m = std::isfinite(known.sigma_m) ? known.sigma_m : settings_.range_sigma_m;
-    return {{anchor, uwb::Sighting::nobody, static_cast<float>(noise_m(range.sigma_m, otherwise_m)),
-             range.range_m - known.range_bias_m}};
-}
-
-RangeEkf::Reading RangeEkf::read(const RangeDifference& difference) const noexcept {
-    const std::int16_t a = index_of(difference.anchor_a), b = index_of(difference.anchor_b);
-    if (a == uwb::Sighting::nobody || b == uwb::Sighting::nobody || a == b) return {{}, Exclusion::unknown_source};
-    if (!std::isfinite(difference.difference_m)) return {{}, Exclusion::not_finite};
-    if (std::abs(difference.difference_m) > settings_.max_range_m) return {{}, Exclusion::out_of_reach};
-    if (difference.line_of_sight == LineOfSight::blocked && !settings_.use_blocked)
-        return {{}, Exclusion::reported_blocked};
-    const double bias_m = site_->anchors[static_cast<std::size_t>(b)].range_bias_m -
-                          site_->anchors[static_cast<std::size_t>(a)].range_bias_m;
-    return {{b, a, static_cast<float>(noise_m(difference.sigma_m, difference_sigma_m(a, b))),
-             difference.difference_m - bias_m}};
-}
-
-std::int16_t RangeEkf::index_of(Address anchor) const noexcept {
-    const Anchor* found = site_->find_anchor(anchor);
-    return found ? static_cast<std::int16_t>(found - site_->anchors.data()) : uwb::Sighting::nobody;
-}
-
-double RangeEkf::difference_sigma_m(std::int16_t a, std::int16_t b) const noexcept {
-    const double a_m = site_->anchors[static_cast<std::size_t>(a)].sigma_m;
-    const double b_m = site_->anchors[static_cast<std::size_t>(b)].sigma_m;
-    return std::isfinite(a_m) && std::isfinite(b_m) ? std::hypot(a_m, b_m) : settings_.range_difference_sigma_m;
 }
 
 Verdict RangeEkf::take(const uwb::Sighting& sighting, Timestamp time) noexcept {
@@ -135,32 +88,8 @@ void RangeEkf::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
     missing_ = Missing::nothing;
 }
 
-RangeEkf::Expectation RangeEkf::expect(const uwb::Sighting& sighting) noexcept {
-    const filter::WanderModel held{settings_.anchor_error_sigma_m, settings_.anchor_error_time_s};
-    const filter::WanderModel common{settings_.common_range_error_sigma_m, no_limit};
-    const bool ranges = sighting.is_range();
-    std::array<int, 2> places{-1, -1};
-    if (held.sigma > 0) places[0] = track_.wanderer(sighting.plus, held);
-    if (ranges && common.sigma > 0) places[1] = track_.wanderer(common_range_error, common);
-    if (!ranges && held.sigma > 0) places[1] = track_.wanderer(sighting.minus, held);
-
-    Expectation expectation;
-    expectation.jacobian.setZero(track_.size());
-    const Eigen::Vector3d gradient = uwb::gradient(sighting, *site_, track_.position_m());
-    for (int axis = 0; axis < 3; ++axis) expectation.jacobian(TrackState::place(axis, 0)) = gradient(axis);
-    double predicted_m = uwb::predicted_m(sighting, *site_, track_.position_m());
-    for (int i = 0; i < 2; ++i) {
-        if (places[i] < 0) continue;
-        const double sign = i == 1 && !ranges ? -1 : 1;
-        expectation.jacobian(places[i]) = sign;
-        predicted_m += sign * track_.state(places[i]);
-    }
-    expectation.innovation_m = sighting.value_m - predicted_m;
-    return expectation;
-}
-
 Verdict RangeEkf::weigh(const uwb::Sighting& sighting) noexcept {
-    const Expectation expected = expect(sighting);
+    const RangeExpectation expected = expect(sighting, *site_, errors_, track_);
     const auto prediction = filter::predict_scalar(track_.covariance, expected.jacobian);
     const double variance = double{sighting.sigma_m} * double{sighting.sigma_m};
     const double innovation_variance = prediction.state_variance + variance;
@@ -176,10 +105,9 @@ Verdict RangeEkf::weigh(const uwb::Sighting& sighting) noexcept {
         verdict.weight = 0;
         return verdict;
     }
-    const double weight = filter::cauchy_weight(in_sigma, settings_.robust_scale);
-    verdict.weight = static_cast<float>(weight);
-    filter::update_scalar(track_.state, track_.covariance, prediction, expected.innovation_m,
-                          filter::weakened_variance(innovation_variance, prediction.state_variance, weight));
+    const filter::Share share = robust_.weigh(in_sigma);
+    verdict.weight = static_cast<float>(share.step);
+    filter::update_scalar(track_.state, track_.covariance, prediction, expected.innovation_m, variance, share);
     return verdict;
 }
 

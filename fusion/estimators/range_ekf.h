@@ -4,8 +4,10 @@
 #pragma once
 
 #include "fusion/estimators/estimator.h"
-#include "fusion/estimators/range_ekf_settings.h"
+#include "fusion/estimators/range_expectation.h"
+#include "fusion/estimators/range_reader.h"
 #include "fusion/filter/gate.h"
+#include "fusion/filter/robust_gain.h"
 #include "fusion/filter/track_state.h"
 #include "fusion/uwb/epoch_keeper.h"
 
@@ -29,25 +31,9 @@ class RangeEkf final : public Estimator {
     const filter::TrackState& track() const noexcept { return track_; }
 
   private:
-    /// Either what filters take or the reason why not.
-    struct Reading {
-        uwb::Sighting sighting;
-        Exclusion reason = Exclusion::none;
-    };
-    struct Expectation {
-        double innovation_m = 0;
-        filter::TrackState::Vector jacobian;
-    };
-
-    Reading read(const Range& range) const noexcept;
-    Reading read(const RangeDifference& difference) const noexcept;
-    std::int16_t index_of(Address anchor) const noexcept;
-    double difference_sigma_m(std::int16_t a, std::int16_t b) const noexcept;
-
     Verdict take(const uwb::Sighting& sighting, Timestamp time) noexcept;
     Verdict start(Timestamp time) noexcept;
     Verdict weigh(const uwb::Sighting& sighting) noexcept;
-    Expectation expect(const uwb::Sighting& sighting) noexcept;
     void count_refusal(bool refused, double dt_s) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
     void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
@@ -57,8 +43,11 @@ class RangeEkf final : public Estimator {
     double gate_in_sigma_;
     double start_anew_cost_;
 
+    RangeReader reader_;
+    CarriedErrors errors_;
     filter::TrackState track_;
     uwb::EpochKeeper epoch_;
+    filter::RobustGain robust_;
     std::vector<filter::Gate> gates_;                     ///< by anchor; of a difference, anchor_b's
     std::array<std::optional<Timestamp>, 2> kind_used_{}; ///< Range, RangeDifference
     Timestamp time_{};                                    ///< of the state

@@ -3,6 +3,8 @@
 // apart diverge within 10^6 steps.
 #pragma once
 
+#include "fusion/filter/robust_gain.h"
+
 #include <Eigen/Core>
 
 namespace locus::filter {
@@ -33,13 +35,16 @@ void joseph(Matrix& covariance, const Vector& gain, const Prediction<Vector>& pr
     covariance.template triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
-/// Takes in one observation with innovation `innovation` and variance `variance` > 0 (paper 001 eq. 9-11).
+/// Takes in `share` of one observation with innovation `innovation` and variance `variance` > 0 (paper 001 eq. 9-11).
+/// In the covariance, a part of the credit is Kalman's update with as much more noise.
 template <class Vector, class Matrix>
 void update_scalar(Vector& state, Matrix& covariance, const Prediction<Vector>& prediction, double innovation,
-                   double variance) {
-    const Vector gain = prediction.cross / (prediction.state_variance + variance);
-    state += gain * innovation;
-    joseph(covariance, gain, prediction, variance);
+                   double variance, const Share& share = {}) {
+    const double innovation_variance = prediction.state_variance + variance;
+    state += prediction.cross * (share.step * innovation / innovation_variance);
+    const double weakened = innovation_variance / share.credit;
+    const Vector gain = prediction.cross / weakened;
+    joseph(covariance, gain, prediction, weakened - prediction.state_variance);
 }
 
 } // namespace locus::filter

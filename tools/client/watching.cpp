@@ -10,10 +10,10 @@ std::string watch_command(const WatchRequest& request) {
     nlohmann::json options{{"enable", true}};
     if (!request.targets.empty()) options["targets"] = request.targets;
     if (request.rate_hz) options["rate_hz"] = *request.rate_hz;
-    std::string json = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    std::string text = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     // The first ';' ends the command, and in JSON it can only stand in a name.
-    for (std::size_t at = 0; (at = json.find(';', at)) != std::string::npos;) json.replace(at, 1, "\\u003b");
-    return "?WATCH=" + json + ";\n";
+    for (std::size_t at = 0; (at = text.find(';', at)) != std::string::npos;) text.replace(at, 1, "\\u003b");
+    return "?WATCH=" + text + ";\n";
 }
 
 void start_watching(Client& client, const WatchRequest& request) {

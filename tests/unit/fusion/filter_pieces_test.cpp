@@ -1,31 +1,80 @@
 // The small pieces every filter is made of: weights, gate, motion.
 #include "fusion/filter/gate.h"
 #include "fusion/filter/motion.h"
-#include "fusion/filter/robust_weight.h"
+#include "fusion/filter/robust_gain.h"
+#include "tests/support/heavy.h"
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <random>
 
 namespace locus::filter {
 namespace {
 
-TEST(RobustWeight, CauchyIsOneAtZeroHalfAtItsScaleAndDiesAsTheSquare) {
+TEST(RobustGain, CauchyIsOneAtZeroHalfAtItsScaleAndDiesAsTheSquare) {
     EXPECT_DOUBLE_EQ(cauchy_weight(0, 2), 1);
     EXPECT_DOUBLE_EQ(cauchy_weight(-2, 2), 0.5);
     EXPECT_NEAR(cauchy_weight(2000, 2), 1e-6, 1e-11);
 }
 
-TEST(RobustWeight, HuberKeepsThePullConstantBeyondItsScale) {
-    EXPECT_DOUBLE_EQ(huber_weight(-1.4, 1.5), 1);
-    EXPECT_DOUBLE_EQ(huber_weight(3, 1.5) * 3, huber_weight(300, 1.5) * 300);
+struct Normal {
+    std::mt19937 random{7};
+    std::normal_distribution<double> normal;
+    double operator()() { return normal(random); }
+};
+
+// The square of what is left of a scalar error, drawn at random, against what the credits say is left.
+TEST(RobustGain, CreditIsWhatTheWeightedStepsAreWorthUnderTheNoiseItIsTold) {
+    for (const double scale : {0.5, 1.0, 2.0}) {
+        Normal draw;
+        RobustGain gain(scale);
+        double left = 0, credited = 0;
+        constexpr int trials = 200'000;
+        for (int i = 0; i < trials; ++i) {
+            const double error = draw(),
+                         innovation = error + draw(); // the gain of Kalman is a half, and so is the rest
+            const Share share = gain.weigh(innovation / std::sqrt(2.0));
+            left += std::pow(error - 0.5 * share.step * innovation, 2);
+            credited += 1 - 0.5 * share.credit;
+        }
+        EXPECT_NEAR(left / trials, credited / trials, 0.01) << scale;
+        EXPECT_NEAR(gain.spread(), 1, 0.15) << scale;
+    }
 }
 
-TEST(RobustWeight, WeakenedVarianceScalesTheWholeInnovation) {
-    EXPECT_DOUBLE_EQ(weakened_variance(0.5, 0.3, 1), 0.2);
-    EXPECT_DOUBLE_EQ(weakened_variance(0.5, 0.3, 0.25) + 0.3, 2.0);
+TEST(RobustGain, WithoutLimitItIsKalmans) {
+    RobustGain gain(1e6);
+    const Share share = gain.weigh(3);
+    EXPECT_NEAR(share.step, 1, 1e-9);
+    EXPECT_NEAR(share.credit, 1, 1e-9);
+}
+
+TEST(RobustGain, FarIsMeasuredInWhatInnovationsComeTo) {
+    Normal draw;
+    RobustGain gain(1);
+    EXPECT_NEAR(gain.weigh(0.7).step, 1 / 1.49, 1e-9);
+    for (int i = 0; i < 5000; ++i) gain.weigh(0.7 * draw());
+    EXPECT_NEAR(gain.spread(), 0.7, 0.1);
+    EXPECT_NEAR(gain.weigh(gain.spread()).step, 0.5, 1e-9);
+}
+
+TEST(RobustGain, OneOutlierInTenHardlyMovesTheSpread) {
+    Normal draw;
+    RobustGain gain(1);
+    for (int i = 0; i < 5000; ++i) gain.weigh(i % 10 == 0 ? 30 : draw());
+    EXPECT_NEAR(gain.spread(), 1.2, 0.15);
+}
+
+TEST(RobustGain, SpreadIsBelievedWithinAFactorOfTwo) {
+    RobustGain still(1), wild(1);
+    for (int i = 0; i < 5000; ++i) {
+        still.weigh(0);
+        wild.weigh(50);
+    }
+    EXPECT_EQ(still.spread(), 0.5);
+    EXPECT_EQ(wild.spread(), 2);
 }
 
 TEST(Gate, LimitIsTheNormalQuantile) {
@@ -78,9 +127,9 @@ TEST(AxisStep, TwoStepsAreOneStep) {
 TEST(AxisStep, NoiseIsPositiveSemiDefiniteForAnyStep) {
     EXPECT_TRUE(rc::check([] {
         const AxisStep step = axis_step({2, seconds(-2, 3)}, seconds(-6, 3));
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(step.noise);
+        const Eigen::VectorXd eigenvalues = test::eigenvalues(step.noise);
         RC_ASSERT(step.noise == step.noise.transpose());
-        RC_ASSERT(eigen.eigenvalues().minCoeff() >= -1e-12 * eigen.eigenvalues().maxCoeff());
+        RC_ASSERT(eigenvalues.minCoeff() >= -1e-12 * eigenvalues.maxCoeff());
     }));
 }
 

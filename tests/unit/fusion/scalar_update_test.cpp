@@ -1,7 +1,8 @@
 // The scalar update against the textbook's matrix form, and its numbers after a million steps.
 #include "fusion/filter/scalar_update.h"
 
-#include <Eigen/Dense>
+#include "tests/support/heavy.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
@@ -22,7 +23,7 @@ Problem random_problem(std::mt19937& random) {
     std::normal_distribution<double> normal;
     const auto draw = [&] { return normal(random); };
     const Matrix root = Matrix::NullaryExpr(draw);
-    const Matrix square = root * root.transpose();
+    const Matrix square = test::carried(root, Matrix::Identity());
     return {Vector::NullaryExpr(draw), (square + square.transpose()) / 2, Vector::NullaryExpr(draw)};
 }
 
@@ -31,8 +32,8 @@ TEST(ScalarUpdate, EqualsTheInformationForm) {
     for (int trial = 0; trial < 100; ++trial) {
         Problem p = random_problem(random);
         const double innovation = 0.7, variance = 0.09;
-        const Matrix information = p.covariance.inverse() + p.jacobian * p.jacobian.transpose() / variance;
-        const Matrix expected_covariance = information.inverse();
+        const Matrix information = test::inverse(p.covariance) + p.jacobian * p.jacobian.transpose() / variance;
+        const Matrix expected_covariance = test::inverse(information);
         const Vector expected_state = p.state + expected_covariance * p.jacobian * innovation / variance;
         update_scalar(p.state, p.covariance, predict_scalar(p.covariance, p.jacobian), innovation, variance);
         EXPECT_LT((p.state - expected_state).norm(), 1e-6 * (1 + expected_state.norm()));
@@ -46,9 +47,22 @@ TEST(ScalarUpdate, JosephHoldsForAGainThatIsNotKalmans) {
     const double variance = 0.25;
     const Vector gain = 0.3 * p.jacobian;
     const Matrix left = Matrix::Identity() - gain * p.jacobian.transpose();
-    const Matrix expected = left * p.covariance * left.transpose() + gain * variance * gain.transpose();
+    const Matrix expected = test::carried(left, p.covariance) + gain * variance * gain.transpose();
     joseph(p.covariance, gain, predict_scalar(p.covariance, p.jacobian), variance);
     EXPECT_LT((p.covariance - expected).norm(), 1e-12 * expected.norm());
+}
+
+TEST(ScalarUpdate, APartOfTheCreditIsTheUpdateWithMoreNoise) {
+    std::mt19937 random(4);
+    Problem p = random_problem(random), noisier = p;
+    const double variance = 0.25, share = 0.4;
+    const auto prediction = predict_scalar(p.covariance, p.jacobian);
+    const double innovation_variance = prediction.state_variance + variance;
+    update_scalar(p.state, p.covariance, prediction, 0.7, variance, {share, share});
+    update_scalar(noisier.state, noisier.covariance, prediction, 0.7,
+                  innovation_variance / share - prediction.state_variance);
+    EXPECT_LT((p.state - noisier.state).norm(), 1e-12);
+    EXPECT_LT((p.covariance - noisier.covariance).norm(), 1e-12);
 }
 
 TEST(ScalarUpdate, MillionStepsKeepTheCovarianceSymmetricAndPositive) {
@@ -62,9 +76,9 @@ TEST(ScalarUpdate, MillionStepsKeepTheCovarianceSymmetricAndPositive) {
         update_scalar(p.state, p.covariance, predict_scalar(p.covariance, p.jacobian), normal(random), 1e-4);
     }
     EXPECT_EQ(p.covariance, Matrix(p.covariance.transpose()));
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(p.covariance);
-    EXPECT_GT(eigen.eigenvalues().minCoeff(), 0);
-    EXPECT_LT(eigen.eigenvalues().maxCoeff(), 1e-4);
+    const Eigen::VectorXd eigenvalues = test::eigenvalues(p.covariance);
+    EXPECT_GT(eigenvalues.minCoeff(), 0);
+    EXPECT_LT(eigenvalues.maxCoeff(), 1e-4);
 }
 
 } // namespace

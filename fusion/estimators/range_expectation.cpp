@@ -1,0 +1,41 @@
+#include "fusion/estimators/range_expectation.h"
+
+#include <array>
+
+namespace locus {
+namespace {
+
+/// Anchors are called by their index; this is the error that all ranges have in common.
+constexpr std::int32_t common_range_error = -1;
+
+struct Carried {
+    int place = -1; ///< in the state; -1: there is none
+    double sign = 1;
+};
+
+Carried carried(std::int32_t key, double sign, const filter::WanderModel& model, filter::TrackState& track) {
+    return {model.sigma > 0 ? track.wanderer(key, model) : -1, sign};
+}
+
+} // namespace
+
+RangeExpectation expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
+                        filter::TrackState& track) noexcept {
+    const std::array all{carried(sighting.plus, 1, errors.anchor, track),
+                         sighting.is_range() ? carried(common_range_error, 1, errors.common, track)
+                                             : carried(sighting.minus, -1, errors.anchor, track)};
+    RangeExpectation expectation;
+    expectation.jacobian.setZero(track.size());
+    const Eigen::Vector3d gradient = uwb::gradient(sighting, site, track.position_m());
+    for (int axis = 0; axis < 3; ++axis) expectation.jacobian(filter::TrackState::place(axis, 0)) = gradient(axis);
+    double predicted_m = uwb::predicted_m(sighting, site, track.position_m());
+    for (const Carried& error : all) {
+        if (error.place < 0) continue;
+        expectation.jacobian(error.place) = error.sign;
+        predicted_m += error.sign * track.state(error.place);
+    }
+    expectation.innovation_m = sighting.value_m - predicted_m;
+    return expectation;
+}
+
+} // namespace locus

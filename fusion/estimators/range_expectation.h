@@ -1,0 +1,25 @@
+// What a track expects of a sighting: the geometry, and beside it the errors that the sighting's anchors carry along
+// from one measurement to the next, kept as wandering states of the track.
+#pragma once
+
+#include "fusion/filter/track_state.h"
+#include "fusion/uwb/sighting.h"
+
+namespace locus {
+
+/// A sigma of zero: there is no such error.
+struct CarriedErrors {
+    filter::WanderModel anchor; ///< of each anchor
+    filter::WanderModel common; ///< of all ranges alike; differences are free of it
+};
+
+struct RangeExpectation {
+    double innovation_m = 0;             ///< sighting less prediction
+    filter::TrackState::Vector jacobian; ///< of the prediction by the state
+};
+
+/// Gives the errors that are new a place in the state. Paper 001 eq. 5-7.
+RangeExpectation expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
+                        filter::TrackState& track) noexcept;
+
+} // namespace locus
