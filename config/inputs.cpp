@@ -22,9 +22,10 @@ void check_name(const YamlNode& item, const InputSettings& input, Problems& prob
 
 void check_wire(const YamlNode& item, const InputSettings& input, Problems& problems) {
     if (!input.transport || !input.decoder || input.transport->carries(input.decoder->wire)) return;
+    const Wire given = *input.transport->wire; // NOLINT(*-unchecked-optional-access): without one it carries every wire
     problems.add(item.find("decoder")->mark,
                  fmt::format("decoder {} needs {}, but transport {} gives {}", input.decoder->name,
-                             wire_name(input.decoder->wire), input.transport->name, wire_name(*input.transport->wire)));
+                             wire_name(input.decoder->wire), input.transport->name, wire_name(given)));
 }
 
 void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {

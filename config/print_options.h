@@ -21,6 +21,6 @@ std::string print_block(std::span<const ShownOptions> tables, std::size_t indent
 std::string print_flow(const ShownOptions& table);
 
 /// For a reference page (Markdown): name, default, what is allowed, and the sentence of every row.
-std::string reference_table(const ShownOptions& table);
+std::string reference_table(const ShownOptions& options);
 
 } // namespace locus::config

@@ -21,8 +21,8 @@ struct YamlNode {
     std::string key; ///< when this node is the value of a map's entry
     Mark key_mark;
 
-    /// The value under `key` of a map; nullptr when there is none.
-    const YamlNode* find(std::string_view key) const;
+    /// The value under `wanted` of a map; nullptr when there is none.
+    const YamlNode* find(std::string_view wanted) const;
 };
 
 inline constexpr std::size_t max_file_bytes = 1024 * 1024;

@@ -87,9 +87,10 @@ void FusionLoop::publish_sources() noexcept {
     const auto sources = plan_->engine->sources();
     const double share = static_cast<double>(schedule_.period().count()) / static_cast<double>(status_interval.count());
     const bool all = std::exchange(show_all_sources_, false);
-    const double budget = std::ceil((all ? 1.0 : std::min(1.0, share)) * static_cast<double>(sources.size()));
+    const auto budget =
+        static_cast<std::size_t>(std::ceil((all ? 1.0 : std::min(1.0, share)) * static_cast<double>(sources.size())));
     const auto count = static_cast<std::uint16_t>(sources.size());
-    for (double sent = 0; sent < budget; ++sent) {
+    for (std::size_t sent = 0; sent < budget; ++sent) {
         next_source_ = next_source_ + 1 < sources.size() ? next_source_ + 1 : 0;
         output_.sources.push(
             {plan_->generation, static_cast<std::uint16_t>(next_source_), count, sources[next_source_]});

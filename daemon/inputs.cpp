@@ -40,7 +40,7 @@ bool is_good_news(const InputEvent& event) {
 
 } // namespace
 
-RunningInput::Body::Body(const InputSettings& given) : settings{given}, input{parts()} {}
+RunningInput::Body::Body(InputSettings given) : settings{std::move(given)}, input{parts()} {}
 
 InputParts RunningInput::Body::parts() {
     InputParts parts;
@@ -63,10 +63,10 @@ void RunningInput::Body::log(const InputEvent& event) {
 }
 
 RunningInput::RunningInput(const InputSettings& settings)
-    : body_{std::make_shared<Body>(settings)}, thread_{[body = body_](std::stop_token stop) {
+    : body_{std::make_shared<Body>(settings)}, thread_{[body = body_](const std::stop_token& stop) {
           schedule_this_thread(0);
           name_this_thread(body->settings.name);
-          body->input.run(std::move(stop));
+          body->input.run(stop);
       }} {}
 
 /// Takes over from `before` the inputs whose settings are the same; the others' slots are left empty.

@@ -26,7 +26,7 @@ class RunningInput {
 
   private:
     struct Body {
-        explicit Body(const InputSettings& settings);
+        explicit Body(InputSettings given);
         InputParts parts();
         void log(const InputEvent& event);
 

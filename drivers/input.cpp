@@ -22,7 +22,7 @@ void sleep_unless_stopped(const std::stop_token& stop, Duration duration) {
 
 } // namespace
 
-void Input::run(std::stop_token stop) {
+void Input::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         if (open() && read_until_lost(stop) == ReadStatus::ended) return;
         if (!stop.stop_requested()) sleep_unless_stopped(stop, back_off_.next());

@@ -52,7 +52,7 @@ class Input : private PacketSink, private MeasurementSink {
     explicit Input(InputParts parts) : parts_{std::move(parts)} {}
 
     /// Reads until asked to stop (heard within about 0.1 s) or a recording ends. Call it once, in its own thread.
-    void run(std::stop_token stop);
+    void run(const std::stop_token& stop);
 
     const std::string& name() const { return parts_.name; }
     std::uint16_t index() const { return parts_.index; }

@@ -17,7 +17,7 @@ class LineSplitter {
     /// "\n" or "\r\n"; empty lines are skipped. A line that is too long is given up, up to the next newline, with one
     /// call of on_too_long(). The view is valid during the call only.
     template <class OnLine, class OnTooLong>
-    void feed(const Packet& packet, OnLine&& on_line, OnTooLong&& on_too_long) {
+    void feed(const Packet& packet, const OnLine& on_line, const OnTooLong& on_too_long) {
         for (std::size_t i = 0; i < packet.data.size(); ++i) {
             if (const auto byte = static_cast<char>(packet.data[i]); byte != '\n') {
                 if (!keep(byte)) on_too_long();

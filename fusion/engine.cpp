@@ -112,7 +112,8 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->last_tick = tick;
     impl_->now = std::max(impl_->now, tick);
     impl_->book.update_rates(tick);
-    for (TargetTable::Slot slot = 0; slot < impl_->targets.size(); ++slot) impl_->step_target(slot, tick);
+    for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
+        impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
     return impl_->poses;
 }
 

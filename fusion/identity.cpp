@@ -91,6 +91,7 @@ struct ShownValue {
 
 } // namespace
 
+// NOLINTBEGIN(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
 Deliveries deliveries_of(const Measurement& measurement, const Site& site) noexcept {
     return std::visit(WhomItConcerns{measurement.input, site}, measurement.observation);
 }
@@ -107,5 +108,6 @@ bool keep_strangers(Delivery& delivery, const Site& site) noexcept {
 bool is_finite(const Observation& observation) noexcept { return std::visit(NumbersAreFinite{}, observation); }
 
 double shown_value(const Observation& observation) noexcept { return std::visit(ShownValue{}, observation); }
+// NOLINTEND(bugprone-exception-escape)
 
 } // namespace locus

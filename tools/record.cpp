@@ -58,7 +58,6 @@ void tell(const std::string& input, const InputEvent& event) {
     case Kind::trouble:
         return complain(input + ": " + (text.empty() ? "well again" : text));
     case Kind::lost:
-        return complain(input + ": " + text);
     case Kind::unavailable:
         return complain(input + ": " + text);
     }

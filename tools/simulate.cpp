@@ -33,7 +33,7 @@ struct SimulateOptions {
     bool reference = false;
 };
 
-volatile std::sig_atomic_t stop = 0;
+volatile std::sig_atomic_t stop = 0; // NOLINT(*-non-const-global-variables): all that a signal handler can reach
 
 void stop_on_signals() {
     struct sigaction action{};

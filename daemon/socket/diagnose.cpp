@@ -43,7 +43,7 @@ void add_input(Sentences& sentences, const InputEntry& input) {
 
 void add_inputs(Sentences& sentences, const Roster& roster) {
     if (std::ranges::none_of(roster.inputs, [](const InputEntry& input) { return input.status != nullptr; }))
-        sentences.push_back("no input is configured or enabled: nothing can be heard");
+        sentences.emplace_back("no input is configured or enabled: nothing can be heard");
     for (const InputEntry& input : roster.inputs) add_input(sentences, input);
 }
 
@@ -60,7 +60,7 @@ void add_targets(Sentences& sentences, const Picture& picture, const Roster& ros
     for (const auto& [address, view] : picture.targets())
         sentences.push_back(
             fmt::format("target {}: {}", roster.names.target(address), missing_sentence(view.pose.estimate.missing)));
-    if (picture.targets().empty()) sentences.push_back("no target is configured and none was heard");
+    if (picture.targets().empty()) sentences.emplace_back("no target is configured and none was heard");
 }
 
 } // namespace
@@ -72,7 +72,8 @@ bool is_working(const Picture& picture) {
 Sentences diagnose(const Picture& picture, const Roster& roster) {
     Sentences sentences;
     if (is_working(picture)) return sentences;
-    if (roster.anchors == 0) sentences.push_back("the site has no anchors: list them under site in the configuration");
+    if (roster.anchors == 0)
+        sentences.emplace_back("the site has no anchors: list them under site in the configuration");
     add_inputs(sentences, roster);
     add_targets(sentences, picture, roster);
     add_sources(sentences, picture, roster);

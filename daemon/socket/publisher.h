@@ -60,7 +60,7 @@ class Publisher {
     std::unique_ptr<const Roster> roster_;
     UniqueFd epoll_;
     Clients clients_;
-    Id next_id_;
+    Id next_id_; // NOLINT(*-default-member-init): the first number is known to the .cpp alone
     std::optional<Timestamp> accept_again_; ///< set: no new clients until then
     Picture picture_;
     ReasonWatch reasons_;

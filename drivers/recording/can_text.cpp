@@ -40,8 +40,9 @@ bool parse_remote(std::string_view length, LogRecord& record, std::string& error
 bool parse_classic(std::string_view text, LogRecord& record, std::string& error) {
     const std::size_t mark = text.find('_');
     std::uint32_t dlc = 0xF;
-    const bool code = mark == text.npos || (mark == 2 * CAN_MAX_DLEN && text.size() == mark + 2 &&
-                                            parse_hex_number(text.substr(mark + 1), dlc) && dlc > CAN_MAX_DLEN);
+    const bool code =
+        mark == std::string_view::npos || (mark == 2 * CAN_MAX_DLEN && text.size() == mark + 2 &&
+                                           parse_hex_number(text.substr(mark + 1), dlc) && dlc > CAN_MAX_DLEN);
     if (!code) error = "a length code after _ goes with 8 bytes and is 9 to F";
     return code && parse_hex_bytes(text.substr(0, mark), CAN_MAX_DLEN, record.data, error);
 }
@@ -72,7 +73,7 @@ void append_can_text(std::string& text, const Packet& packet) {
 bool parse_can_text(std::string_view text, LogRecord& record, std::string& error) {
     const std::size_t hash = text.find('#');
     record.wire = Wire::can;
-    if (hash == text.npos || !parse_can_id(text.substr(0, hash), record.can_id)) {
+    if (hash == std::string_view::npos || !parse_can_id(text.substr(0, hash), record.can_id)) {
         error = "the CAN id before # has neither 3 hex digits up to 7FF nor 8";
         return false;
     }

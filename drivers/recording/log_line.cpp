@@ -74,7 +74,7 @@ std::string to_log_line(const std::string& input, const Packet& packet) {
 
 std::optional<LogRecord> from_log_line(std::string_view line, std::string& error) {
     error.clear();
-    if (line.find_first_not_of(blank) == line.npos || line.starts_with('#')) return std::nullopt;
+    if (line.find_first_not_of(blank) == std::string_view::npos || line.starts_with('#')) return std::nullopt;
     LogRecord record;
     if (!parse_stamp(take_word(line), record.time, error)) return std::nullopt;
     record.input = take_word(line);

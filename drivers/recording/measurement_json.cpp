@@ -176,7 +176,7 @@ bool emplace_kind(std::size_t kind, Observation& observation) {
 std::string to_json_line(const Measurement& measurement) {
     std::string line = "{\"t\":";
     append_seconds(line, measurement.time);
-    line.append(",\"class\":\"").append(observation_names[measurement.observation.index()]).append("\"");
+    line.append(R"(,"class":")").append(observation_names[measurement.observation.index()]).append("\"");
     Writer writer(line);
     writer.must("input", measurement.input);
     writer.must("sequence", measurement.sequence);
@@ -198,7 +198,7 @@ std::optional<Measurement> from_json_line(std::string_view line, std::string& er
     const auto kind = std::find(observation_names.begin(), observation_names.end(), name);
     if (reader.error.empty() &&
         !emplace_kind(static_cast<std::size_t>(kind - observation_names.begin()), measurement.observation))
-        reader.error = "\"class\" is \"" + name + "\", which is not a class of measurements";
+        reader.error = R"("class" is ")" + name + R"(", which is not a class of measurements)";
     std::visit([&](auto& sample) { visit_fields(reader, sample); }, measurement.observation);
     reader.nothing_left();
     if (reader.error.empty()) return measurement;

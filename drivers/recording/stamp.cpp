@@ -50,7 +50,7 @@ void append_seconds(std::string& text, Timestamp time) {
 }
 
 std::optional<Timestamp> parse_seconds(std::string_view text) {
-    if (text.find_first_of("eE") != text.npos) return parse_with_exponent(text);
+    if (text.find_first_of("eE") != std::string_view::npos) return parse_with_exponent(text);
     const bool negative = text.starts_with('-');
     const std::string_view digits = text.substr(negative);
     const std::size_t dot = std::min(digits.find('.'), digits.size());

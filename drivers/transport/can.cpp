@@ -114,7 +114,7 @@ class Can : public Transport {
     }
 
     void count_drops(std::uint32_t dropped_here) {
-        dropped_ += static_cast<std::uint32_t>(dropped_here - dropped_here_);
+        dropped_ += dropped_here - dropped_here_;
         dropped_here_ = dropped_here;
     }
 

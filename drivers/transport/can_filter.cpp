@@ -15,7 +15,8 @@ bool parse_filter(std::string_view word, can_filter& filter) {
     if (!parse_can_id(word.substr(0, colon), filter.can_id) || (filter.can_id & CAN_ERR_FLAG)) return false;
     const canid_t all = filter.can_id & CAN_EFF_FLAG ? CAN_EFF_MASK : CAN_SFF_MASK;
     canid_t mask = all;
-    if (colon != word.npos && (!parse_hex_number(word.substr(colon + 1), mask) || mask > all)) return false;
+    if (colon != std::string_view::npos && (!parse_hex_number(word.substr(colon + 1), mask) || mask > all))
+        return false;
     filter.can_mask = mask | CAN_EFF_FLAG | CAN_RTR_FLAG; // else an extended id with the same low bits passes too
     return true;
 }

@@ -34,7 +34,7 @@ constexpr std::array recording_options{
 
 class Recording : public Transport {
   public:
-    explicit Recording(const RecordingSettings& settings) : settings_{settings} {}
+    explicit Recording(RecordingSettings settings) : settings_{std::move(settings)} {}
 
     bool open() override {
         start_ = receive_stamp(monotonic_now());
@@ -49,7 +49,7 @@ class Recording : public Transport {
         if (!next_ && !start_again()) return ReadStatus::ended;
         const Timestamp due = due_time();
         if (settings_.speed > 0 && !wait_for(due, timeout)) return ReadStatus::ok;
-        Packet packet = next_->packet();
+        Packet packet = next_->packet(); // NOLINT(bugprone-unchecked-optional-access): start_again() finds one
         packet.time = last_due_ = due;
         sink.packet(packet);
         advance();
@@ -93,7 +93,7 @@ class Recording : public Transport {
     }
 
     Timestamp due_time() const {
-        Duration offset = next_->time - *first_;
+        Duration offset = next_->time - *first_; // NOLINT(bugprone-unchecked-optional-access): read() asks first
         const bool scaled = settings_.speed != 0 && settings_.speed != 1;
         if (scaled) offset = duration_from_s(std::clamp(to_s(offset) / settings_.speed, -1e9, 1e9));
         return start_ + offset;

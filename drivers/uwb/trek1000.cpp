@@ -48,7 +48,7 @@ bool read_range(std::string_view text, std::int32_t& range_mm) {
 /// "a0:3": printed by an anchor, tag 0, anchor 3.
 bool read_role(std::string_view text, TrekReport& report) {
     const std::size_t colon = text.find(':');
-    if (colon == text.npos || (text[0] != 'a' && text[0] != 't')) return false;
+    if (colon == std::string_view::npos || (text[0] != 'a' && text[0] != 't')) return false;
     report.role = text[0];
     return read(text.substr(1, colon - 1), 10, report.tag) && read(text.substr(colon + 1), 10, report.anchor);
 }
@@ -74,7 +74,8 @@ class Trek1000 : public Decoder {
     /// No field but the first holds an 'm': whatever stands before the last one is the rest of a damaged line.
     void line(std::string_view text, Timestamp complete, MeasurementSink& sink) const {
         const std::size_t begin = text.rfind('m');
-        if (begin == text.npos) return sink.refuse(text[0] == '$' ? Refusal::unknown_type : Refusal::garbage);
+        if (begin == std::string_view::npos)
+            return sink.refuse(text[0] == '$' ? Refusal::unknown_type : Refusal::garbage);
         if (begin > 0) sink.refuse(Refusal::garbage);
         report(text.substr(begin), complete, sink);
     }

@@ -25,7 +25,7 @@ uwb::EpochSettings epoch_settings(const RangeEkfSettings& s) {
     epoch.window_s = s.start_window_s;
     epoch.speed_mps = s.speed_sigma_mps;
     epoch.held_range_sigma_m = std::hypot(s.anchor_error_sigma_m, s.common_range_error_sigma_m);
-    epoch.held_difference_sigma_m = std::sqrt(2.0) * s.anchor_error_sigma_m;
+    epoch.held_difference_sigma_m = std::numbers::sqrt2 * s.anchor_error_sigma_m;
     epoch.solve.planar = s.planar;
     epoch.solve.height_site_m = s.height_m;
     return epoch;
@@ -130,7 +130,8 @@ Estimate RangeEkf::predict(Timestamp time) const noexcept {
     estimate.reset_count = reset_count_;
     estimate.missing = missing_;
     for (std::size_t kind = 0; kind < kind_used_.size(); ++kind)
-        if (kind_used_[kind] && to_s(time - *kind_used_[kind]) <= kind_memory_s) estimate.kinds_used |= 1u << kind;
+        if (const auto& used = kind_used_[kind]; used && to_s(time - *used) <= kind_memory_s)
+            estimate.kinds_used |= 1u << kind;
     if (missing_ != Missing::nothing) return estimate;
 
     TrackState track = track_;

@@ -33,7 +33,7 @@ inline double predicted_m(const Sighting& s, const Site& site, const Eigen::Vect
 
 /// Of predicted_m() by position.
 inline Eigen::Vector3d gradient(const Sighting& s, const Site& site, const Eigen::Vector3d& position_site_m) {
-    const Eigen::Vector3d plus = range_gradient(position_site_m, anchor_site_m(site, s.plus));
+    Eigen::Vector3d plus = range_gradient(position_site_m, anchor_site_m(site, s.plus));
     if (s.is_range()) return plus;
     return plus - range_gradient(position_site_m, anchor_site_m(site, s.minus));
 }

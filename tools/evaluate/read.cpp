@@ -145,7 +145,7 @@ Track read_pose_lines(std::istream& stream, const std::string& name, const std::
         const std::string found = tools::text(*fields, "target");
         if (track.empty() && target.empty()) wanted = found;
         if (found != wanted && target.empty())
-            lines.fail(fmt::format("poses of two targets, \"{}\" and \"{}\": choose one with --target", wanted, found));
+            lines.fail(fmt::format(R"(poses of two targets, "{}" and "{}": choose one with --target)", wanted, found));
         if (found == wanted) append(track, pose_point(*fields, lines), lines);
     }
     return track;

@@ -65,7 +65,7 @@ Figures figures(std::vector<double> errors_m) {
 
 std::vector<Eigen::Vector3d> errors(std::span<const Pair> pairs, const Similarity& similarity) {
     Errors result;
-    for (const auto& pair : pairs) result.push_back(similarity(pair.estimate_m) - pair.truth_m);
+    for (const auto& pair : pairs) result.emplace_back(similarity(pair.estimate_m) - pair.truth_m);
     return result;
 }
 

@@ -31,7 +31,7 @@ std::string escaped(std::string_view text) {
 
 std::string attributes(const Stroke& stroke) {
     const std::string dashes = stroke.dashes.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", stroke.dashes);
-    return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{} stroke-linejoin=\"round\"", stroke.colour,
+    return fmt::format(R"(fill="none" stroke="{}" stroke-width="{}"{} stroke-linejoin="round")", stroke.colour,
                        stroke.width_px, dashes);
 }
 
@@ -81,7 +81,8 @@ std::vector<double> ticks(Interval interval, int wanted) {
     const double lead = rough / power;
     const double step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
     std::vector<double> result;
-    for (double i = std::ceil(interval.low / step); i * step <= interval.high; ++i) result.push_back(i * step);
+    const double first = std::ceil(interval.low / step), last = std::floor(interval.high / step);
+    for (int i = 0; i <= last - first; ++i) result.push_back((first + i) * step);
     return result;
 }
 

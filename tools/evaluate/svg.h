@@ -17,7 +17,7 @@ enum class TextAnchor { start, middle, end };
 struct Stroke {
     std::string_view colour;
     double width_px = 1;
-    std::string_view dashes = "";
+    std::string_view dashes{};
 };
 
 class Svg {

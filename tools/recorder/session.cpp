@@ -23,12 +23,12 @@ InputParts input_parts(const InputSettings& settings, LogTap& tap, const RecordS
 RecordSession::Part::Part(const InputSettings& settings, LogFile& file, const OnEvent& on_event)
     : tap{settings.name, file}, input{input_parts(settings, tap, on_event)} {}
 
-RecordSession::RecordSession(const std::vector<InputSettings>& settings, LogFile& file, OnEvent on_event) {
+RecordSession::RecordSession(const std::vector<InputSettings>& settings, LogFile& file, const OnEvent& on_event) {
     for (const InputSettings& one : settings) {
         if (one.enabled) parts_.push_back(std::make_unique<Part>(one, file, on_event));
     }
     for (const auto& part : parts_) {
-        part->thread = std::jthread{[&input = part->input](std::stop_token stop) { input.run(stop); }};
+        part->thread = std::jthread{[&input = part->input](const std::stop_token& stop) { input.run(stop); }};
     }
 }
 

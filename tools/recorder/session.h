@@ -19,7 +19,7 @@ class RecordSession {
     using OnEvent = std::function<void(const std::string& input, const InputEvent& event)>;
 
     /// Starts the enabled inputs. `file` must stay until the session is gone.
-    RecordSession(const std::vector<InputSettings>& settings, LogFile& file, OnEvent on_event);
+    RecordSession(const std::vector<InputSettings>& settings, LogFile& file, const OnEvent& on_event);
 
     /// Ends the threads; the counts stay.
     void stop();

@@ -110,7 +110,7 @@ std::vector<std::string> what_is_missing(const Summary& summary) {
     std::vector<std::string> sentences;
     for (const auto& [name, target] : summary.targets)
         sentences.push_back(name + ": " + std::string(missing_sentence(target.missing)));
-    if (sentences.empty()) sentences.push_back("no measurement is of a target that is followed");
+    if (sentences.empty()) sentences.emplace_back("no measurement is of a target that is followed");
     return sentences;
 }
 

@@ -22,7 +22,7 @@ void add_corner(std::vector<Vector3d>& curve, const Vector3d& before, const Vect
     const Vector3d from = toward(before), to = toward(after);
     for (int i = 0; i <= corner_steps; ++i) {
         const double u = static_cast<double>(i) / corner_steps;
-        curve.push_back((1 - u) * (1 - u) * from + 2 * u * (1 - u) * corner + u * u * to);
+        curve.emplace_back((1 - u) * (1 - u) * from + 2 * u * (1 - u) * corner + u * u * to);
     }
 }
 
@@ -48,7 +48,7 @@ Path Path::figure_of_eight(const Vector3d& centre, const Vector3d& size_m) {
     for (int i = 0; i < eight_steps; ++i) {
         const double angle = 2 * std::numbers::pi * i / eight_steps;
         const Vector3d unit{std::sin(angle), std::sin(2 * angle), std::cos(angle)};
-        curve.push_back(centre + 0.5 * size_m.cwiseProduct(unit));
+        curve.emplace_back(centre + 0.5 * size_m.cwiseProduct(unit));
     }
     return Path(std::move(curve));
 }

@@ -12,8 +12,8 @@ std::mt19937_64 generator(std::int64_t seed, unsigned number) {
 
 } // namespace
 
-Receiver::Receiver(const Scenario& scenario, const Radio& radio, unsigned number)
-    : scenario_(scenario), radio_(radio), random_(generator(scenario.simulation.seed, number)),
+Receiver::Receiver(const Scenario& scenario, Radio radio, unsigned number)
+    : scenario_(scenario), radio_(std::move(radio)), random_(generator(scenario.simulation.seed, number)),
       links_(scenario.site.anchors.size() * scenario.movers.size()) {}
 
 std::vector<Receiver::Heard> Receiver::hear(std::size_t mover, const Eigen::Vector3d& position_site_m) {
@@ -63,11 +63,11 @@ std::vector<Observation> Receiver::measure(std::size_t mover, const Eigen::Vecto
     const Address tag = scenario_.movers[mover].target.address;
     std::vector<Observation> observations;
     if (radio_.mode == "ranges") {
-        for (const Heard& one : heard) observations.push_back(range(tag, one));
+        for (const Heard& one : heard) observations.emplace_back(range(tag, one));
         return observations;
     }
-    for (std::size_t i = 1; i < heard.size(); ++i) observations.push_back(difference(tag, heard[i - 1], heard[i]));
-    if (heard.size() > 2) observations.push_back(difference(tag, heard.back(), heard.front()));
+    for (std::size_t i = 1; i < heard.size(); ++i) observations.emplace_back(difference(tag, heard[i - 1], heard[i]));
+    if (heard.size() > 2) observations.emplace_back(difference(tag, heard.back(), heard.front()));
     return observations;
 }
 

@@ -23,7 +23,7 @@ class Receiver {
   public:
     /// `number` is the sensor's place in the scenario: each has random numbers of its own, so that one more sensor does
     /// not change what the others measure.
-    Receiver(const Scenario& scenario, const Radio& radio, unsigned number);
+    Receiver(const Scenario& scenario, Radio radio, unsigned number);
 
     /// `mover` is a place in scenario.movers; the target is at `position_site_m`.
     std::vector<Observation> measure(std::size_t mover, const Eigen::Vector3d& position_site_m);
