@@ -1,7 +1,6 @@
 #include "daemon/inputs.h"
 
 #include "config/load.h"
-#include "daemon/realtime.h"
 #include "drivers/clock.h"
 
 #include <spdlog/spdlog.h>
@@ -64,7 +63,6 @@ void RunningInput::Body::log(const InputEvent& event) {
 
 RunningInput::RunningInput(const InputSettings& settings)
     : body_{std::make_shared<Body>(settings)}, thread_{[body = body_](std::stop_token stop) {
-          schedule_this_thread(0);
           name_this_thread(body->settings.name);
           body->input.run(std::move(stop));
       }} {}
@@ -82,11 +80,13 @@ std::vector<InputSet::Slot> InputSet::keep_unchanged(std::vector<Slot>& before,
     return slots;
 }
 
-void InputSet::apply(const std::vector<InputSettings>& wanted) {
+void InputSet::apply(const std::vector<InputSettings>& wanted, int priority) {
     std::vector<Slot> slots = keep_unchanged(slots_, wanted);
     stop(slots_); // before the new ones start: they may want the same device
     for (Slot& slot : slots)
         if (!slot.running && slot.settings.enabled) slot.running = std::make_unique<RunningInput>(slot.settings);
+    for (const Slot& slot : slots)
+        if (slot.running) slot.running->schedule(priority);
     slots_ = std::move(slots);
 }
 

@@ -4,6 +4,7 @@
 #include "config/settings.h"
 #include "daemon/fusion_plan.h"
 #include "daemon/rate_limit.h"
+#include "daemon/realtime.h"
 #include "daemon/socket/roster.h"
 #include "drivers/input.h"
 
@@ -20,6 +21,8 @@ class RunningInput {
     explicit RunningInput(const InputSettings& settings);
 
     void request_stop() { thread_.request_stop(); }
+    /// SCHED_FIFO where allowed; 0: ordinary.
+    void schedule(int priority) { schedule_thread(thread_.native_handle(), priority); }
     /// Both may outlive this.
     std::shared_ptr<MeasurementRing> ring() const { return {body_, &body_->ring}; }
     std::shared_ptr<const InputStatus> status() const { return {body_, &body_->input.status()}; }
@@ -43,8 +46,9 @@ class InputSet {
   public:
     ~InputSet() { stop(); }
 
-    /// Stops what is no longer wanted, then starts what is new. Blocks for about 0.1 s when something must stop.
-    void apply(const std::vector<InputSettings>& wanted);
+    /// Stops what is no longer wanted, then starts what is new; all run at `priority`. Blocks for about 0.1 s when
+    /// something must stop.
+    void apply(const std::vector<InputSettings>& wanted, int priority);
 
     /// All at once: about 0.1 s however many there are.
     void stop();

@@ -30,7 +30,6 @@ Service::Service(Settings settings, std::string config, Listener listener)
       fusion_{plan(std::make_unique<Engine>(settings_.engine)), output_, ticked_},
       publisher_{std::move(listener), output_, ticked_, post_, roster()} {
     publisher_thread_ = std::jthread{[this](const std::stop_token& stop) {
-        schedule_this_thread(0);
         name_this_thread("publisher");
         publisher_.run(stop);
     }};
@@ -51,7 +50,9 @@ Service::~Service() {
 void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
     settings_ = std::move(settings);
     if (engine) ++generation_;
-    inputs_.apply(settings_.inputs);
+    const int priority = beside_fusion(settings_.realtime.priority);
+    inputs_.apply(settings_.inputs, priority);
+    schedule_thread(publisher_thread_.native_handle(), priority);
     auto next = plan(std::move(engine));
     lock();
     plan_on_its_way_ = fusion_.plans.give(next);
