@@ -39,7 +39,9 @@ bool is_good_news(const InputEvent& event) {
 
 } // namespace
 
-RunningInput::Body::Body(const InputSettings& given) : settings{given}, input{parts()} {}
+RunningInput::Body::Body(const InputSettings& given, LogFile* recording)
+    : settings{given}, tap{recording ? std::optional<LogTap>{std::in_place, given.name, *recording} : std::nullopt},
+      input{parts()} {}
 
 InputParts RunningInput::Body::parts() {
     InputParts parts;
@@ -48,6 +50,7 @@ InputParts RunningInput::Body::parts() {
     parts.decoder = settings.decoder->make(settings.decoder_settings.get());
     parts.delay = duration_from_s(settings.delay_s);
     parts.ring = &ring;
+    parts.tap = tap ? &*tap : nullptr;
     parts.on_event = [this](const InputEvent& event) { log(event); };
     return parts;
 }
@@ -61,8 +64,8 @@ void RunningInput::Body::log(const InputEvent& event) {
                 sentence_of(event), more);
 }
 
-RunningInput::RunningInput(const InputSettings& settings)
-    : body_{std::make_shared<Body>(settings)}, thread_{[body = body_](std::stop_token stop) {
+RunningInput::RunningInput(const InputSettings& settings, LogFile* recording)
+    : body_{std::make_shared<Body>(settings, recording)}, thread_{[body = body_](std::stop_token stop) {
           name_this_thread(body->settings.name);
           body->input.run(std::move(stop));
       }} {}
@@ -84,7 +87,8 @@ void InputSet::apply(const std::vector<InputSettings>& wanted, int priority) {
     std::vector<Slot> slots = keep_unchanged(slots_, wanted);
     stop(slots_); // before the new ones start: they may want the same device
     for (Slot& slot : slots)
-        if (!slot.running && slot.settings.enabled) slot.running = std::make_unique<RunningInput>(slot.settings);
+        if (!slot.running && slot.settings.enabled)
+            slot.running = std::make_unique<RunningInput>(slot.settings, recording_);
     for (const Slot& slot : slots)
         if (slot.running) slot.running->schedule(priority);
     slots_ = std::move(slots);

@@ -7,8 +7,10 @@
 #include "daemon/realtime.h"
 #include "daemon/socket/roster.h"
 #include "drivers/input.h"
+#include "drivers/recording/log_file.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,7 +20,8 @@ namespace locus {
 /// One input at work. Destroyed, it has stopped.
 class RunningInput {
   public:
-    explicit RunningInput(const InputSettings& settings);
+    /// `recording` gets every packet; null: none is kept.
+    RunningInput(const InputSettings& settings, LogFile* recording);
 
     void request_stop() { thread_.request_stop(); }
     /// SCHED_FIFO where allowed; 0: ordinary.
@@ -29,12 +32,13 @@ class RunningInput {
 
   private:
     struct Body {
-        explicit Body(const InputSettings& settings);
+        Body(const InputSettings& settings, LogFile* recording);
         InputParts parts();
         void log(const InputEvent& event);
 
         InputSettings settings;
         RateLimit lines{20, std::chrono::seconds{5}}; ///< a loose plug comes and goes ten times a second
+        std::optional<LogTap> tap;
         MeasurementRing ring;
         Input input;
     };
@@ -44,7 +48,11 @@ class RunningInput {
 
 class InputSet {
   public:
+    /// `recording` outlives this; null: nothing is recorded.
+    explicit InputSet(LogFile* recording = nullptr) : recording_{recording} {}
     ~InputSet() { stop(); }
+    InputSet(const InputSet&) = delete;
+    InputSet& operator=(const InputSet&) = delete;
 
     /// Stops what is no longer wanted, then starts what is new; all run at `priority`. Blocks for about 0.1 s when
     /// something must stop.
@@ -70,6 +78,7 @@ class InputSet {
     static std::vector<Slot> keep_unchanged(std::vector<Slot>& before, const std::vector<InputSettings>& wanted);
     static void stop(std::vector<Slot>& slots);
 
+    LogFile* recording_;
     std::vector<Slot> slots_; ///< in the order of the settings
 };
 

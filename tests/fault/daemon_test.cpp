@@ -187,6 +187,15 @@ TEST_F(DaemonTest, CheckSaysSoAndStartsNothing) {
     ASSERT_TRUE(ends_with(2));
 }
 
+TEST_F(DaemonTest, ARecordingThatIsThereIsNotOverwritten) {
+    test::write_all(folder_ / "precious.log", "precious\n");
+    daemon_ = std::make_unique<test::DaemonProcess>(
+        std::vector<std::string>{"--config", config_, "--record", folder_ / "precious.log"}, log_);
+    ASSERT_TRUE(ends_with(1));
+    EXPECT_NE(test::read_all(log_).find("is there already: take another name"), std::string::npos);
+    EXPECT_EQ(test::read_all(folder_ / "precious.log"), "precious\n");
+}
+
 TEST_F(DaemonTest, ASecondDaemonDoesNotTakeTheSocketAway) {
     start();
     SocketClient client{socket_};
