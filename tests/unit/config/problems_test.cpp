@@ -85,7 +85,7 @@ const Case cases[] = {
      "3:6: input has no setting \"decodr\"; did you mean \"decoder\"?"},
     {"UnknownKeyOfAnUnknownTransport",
      "inputs:\n  - {name: a, transport: seriel,\n     paht: /f, baud_bd: 9600, decoder: trek1000}",
-     "2:27: there is no transport \"seriel\"; did you mean \"serial\"?\n"
+     "2:26: there is no transport \"seriel\"; did you mean \"serial\"?\n"
      "3:6: input has no setting \"paht\"; did you mean \"path\"?"},
     {"UnknownTransport", "inputs: [{name: a, transport: seriel, decoder: trek1000, baud_bd: 9600}]",
      R"(1:31: there is no transport "seriel"; did you mean "serial"?)"},
