@@ -12,18 +12,17 @@
 namespace locus {
 namespace {
 
-using namespace locus::play;
 using tools::complain;
 
 struct PlayOptions {
-    Request request;
+    play::Request request;
     std::string config;
     bool json = false;
 };
 
-int tell(const Result& result, const PlayOptions& options) {
+int report(const play::Result& result, const PlayOptions& options) {
     if (options.json) {
-        fmt::print("{}\n", result_json(result));
+        fmt::print("{}\n", play::result_json(result));
     } else {
         fmt::print("{} packets in {:.1f} s, {} of them lost because nobody read them\n", result.played, result.took_s,
                    result.lost);
@@ -40,7 +39,7 @@ int run(const PlayOptions& options) {
     for (const ConfigProblem& problem : loaded.problems) complain(to_string(problem));
     if (!loaded.settings) return exit_usage;
     try {
-        return tell(play::play(loaded.settings->inputs, options.request), options);
+        return report(play::play(loaded.settings->inputs, options.request), options);
     } catch (const std::runtime_error& error) {
         complain(error.what());
         return exit_usage;
