@@ -55,8 +55,11 @@ class Player {
         if (record) play(*record);
     }
 
+    /// A pseudo-terminal that goes takes with it what its reader has not read yet: so it stays for a moment.
     Result finish() {
+        constexpr Duration moment = std::chrono::milliseconds{500};
         result_.took_s = to_s(monotonic_now() - start_);
+        tools::sleep_until_or_interrupted(monotonic_now() + moment);
         for (const auto& [name, device] : devices_) result_.lost += device->lost();
         return std::move(result_);
     }

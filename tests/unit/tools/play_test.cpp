@@ -53,7 +53,6 @@ class PlayTest : public testing::Test {
                 if (device->read(received, std::chrono::milliseconds{10}) != ReadStatus::ok) return;
         }};
         result = play({log, "--config", config(transport), "--speed", "100"});
-        std::this_thread::sleep_for(std::chrono::milliseconds{50});
         reader.request_stop();
         reader.join();
         return received.text;
