@@ -7,7 +7,7 @@ import json
 import math
 import sys
 
-MOST_M = 0.15
+MOST_M = 0.3
 
 
 def poses(path):

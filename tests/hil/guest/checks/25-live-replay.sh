@@ -1,13 +1,23 @@
-# What the daemon made of CAN frames, `locus replay` makes of the recording of those frames: two sockets see one kernel stamp.
+# What the service makes of CAN frames live, `locus replay` makes of the frames that it kept (--record).
 
 check_25_live_poses_are_those_of_the_replay() {
   stop_can_feed
-  systemctl restart locusd && within 20 input_is can state open || return 1
-  grep -v 'name: trek' /etc/locusd/locusd.yaml >/run/can.yaml
-  locus record --config /run/can.yaml -o /run/live.log --seconds 16 & local recorder=$!
-  locus watch --json --target cart --seconds 12 >/run/live.jsonl & local watcher=$!
-  sleep 3; start_can_feed
-  wait "$watcher"; wait "$recorder"
-  locus replay /run/live.log --config /run/can.yaml --target cart --poses /run/replay.jsonl
-  python3 same_poses.py /run/live.jsonl /run/replay.jsonl
+  record_live && locus watch --json --target cart --seconds 12 >/run/live.jsonl & local watcher=$!
+  sleep 6; start_can_feed
+  wait "$watcher"
+  stop_can_feed; systemctl stop locusd
+  cp /run/locusd/live.log /run/live.log
+  locus replay /run/live.log --config /etc/locusd/locusd.yaml --target cart --poses /run/replay.jsonl
+  record_no_more && start_can_feed && has_poses cart && python3 same_poses.py /run/live.jsonl /run/replay.jsonl
+}
+
+drop_in=/run/systemd/system/locusd.service.d
+record_live() {
+  mkdir -p $drop_in
+  printf '[Service]\nExecStart=\nExecStart=/usr/bin/locusd --record /run/locusd/live.log\n' >$drop_in/record.conf
+  systemctl daemon-reload && systemctl restart locusd && within 20 input_is can state open
+}
+record_no_more() {
+  rm -r $drop_in /run/locusd/live.log
+  systemctl daemon-reload && systemctl restart locusd && within 20 input_is can state open
 }
