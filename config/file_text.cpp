@@ -17,7 +17,10 @@ namespace {
 
 class File {
   public:
-    explicit File(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+    /// Does not wait for the writer of a named pipe; where one is there, reading waits for what it has to say.
+    explicit File(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+        if (descriptor_ >= 0) ::fcntl(descriptor_, F_SETFL, O_RDONLY);
+    }
     File(const File&) = delete;
     File& operator=(const File&) = delete;
     ~File() {

@@ -28,6 +28,26 @@ void check_wire(const YamlNode& item, const InputSettings& input, Problems& prob
                              wire_name(input.decoder->wire), input.transport->name, wire_name(given)));
 }
 
+/// What may stand in the map although its table was not found: the settings of every device it could have been.
+void append_settings_of(const auto& table, std::vector<std::string_view>& keys) {
+    for (const auto& row : table)
+        for (const OptionRow& option : row.options.rows) keys.push_back(option.name);
+}
+
+std::vector<std::string_view> possible_keys(const InputSettings& input) {
+    std::vector<std::string_view> keys;
+    if (!input.transport) append_settings_of(transport_table(), keys);
+    if (!input.decoder) append_settings_of(decoder_table(), keys);
+    return keys;
+}
+
+/// As written: a link and its device are only seen to be one where the device is plugged in.
+void check_device(const YamlNode& item, const InputSettings& input, Uniques& devices, Problems& problems) {
+    if (!input.enabled || !input.transport || input.transport->sole_option.empty()) return;
+    const YamlNode* device = item.find(input.transport->sole_option);
+    if (device && !device->text.empty()) devices.check(device->text, device->mark, problems);
+}
+
 void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {
     input.transport = find_named(item.find("transport"), "transport", transport_table(), problems);
     input.decoder = find_named(item.find("decoder"), "decoder", decoder_table(), problems);
@@ -43,19 +63,19 @@ void read_input(const YamlNode& item, InputSettings& input, std::span<const Boun
     if (input.transport) tables.push_back({input.transport->options.rows, input.transport_settings.get()});
     if (input.decoder) tables.push_back({input.decoder->options.rows, input.decoder_settings.get()});
     tables.insert(tables.end(), more.begin(), more.end());
-    // An option of a device that was not found is no unknown key.
-    const bool all_found = input.transport && input.decoder;
-    (all_found ? read_map : read_known_keys)(item, {"input"}, tables, problems);
+    read_map(item, {"input", possible_keys(input)}, tables, problems);
     check_name(item, input, problems);
     check_wire(item, input, problems);
 }
 
 void read_inputs(const YamlNode& node, std::vector<InputSettings>& inputs, Problems& problems) {
     Uniques names("input with the name");
+    Uniques devices("input that reads", ", which only one can");
     for (const auto& item : list_items(node, max_inputs, problems)) {
         InputSettings& input = inputs.emplace_back();
         read_input(item, input, {}, problems);
         if (!input.name.empty()) names.check(input.name, item.mark, problems);
+        check_device(item, input, devices, problems);
     }
 }
 

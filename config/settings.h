@@ -93,7 +93,8 @@ struct RealtimeSettings {
 
 inline constexpr std::array realtime_options{
     option<&RealtimeSettings::priority>(
-        "priority", "", 0, 98, "SCHED_FIFO priority of the fusion thread where allowed; 0: ordinary scheduling."),
+        "priority", "", 0, 98,
+        "SCHED_FIFO priority of the fusion thread where allowed, inputs and publisher one below; 0: all ordinary."),
     option<&RealtimeSettings::lock_memory>("lock_memory", "Whether memory is locked where allowed."),
     option<&RealtimeSettings::spin_s>("spin_s", "s", 0, 0.001, "Last part of each wait that is spun, not slept."),
 };

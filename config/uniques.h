@@ -14,16 +14,19 @@ namespace locus::config {
 class Uniques {
   public:
     /// `what` as in "a second anchor with the name A0".
-    explicit Uniques(std::string what) : what_(std::move(what)) {}
+    /// `why` follows the value: ", which ...".
+    explicit Uniques(std::string what, std::string why = "") : what_(std::move(what)), why_(std::move(why)) {}
 
     void check(const std::string& value, Mark mark, Problems& problems) {
         const auto [first, is_new] = first_lines_.try_emplace(value, mark.line);
         if (!is_new)
-            problems.add(mark, fmt::format("a second {} {}; the first is in line {}", what_, value, first->second));
+            problems.add(mark,
+                         fmt::format("a second {} {}{}; the first is in line {}", what_, value, why_, first->second));
     }
 
   private:
     std::string what_;
+    std::string why_;
     std::map<std::string, int> first_lines_;
 };
 

@@ -1,7 +1,6 @@
 #include "daemon/inputs.h"
 
 #include "config/load.h"
-#include "daemon/realtime.h"
 #include "drivers/clock.h"
 
 #include <spdlog/spdlog.h>
@@ -40,7 +39,9 @@ bool is_good_news(const InputEvent& event) {
 
 } // namespace
 
-RunningInput::Body::Body(InputSettings given) : settings{std::move(given)}, input{parts()} {}
+RunningInput::Body::Body(InputSettings given, LogFile* recording)
+    : settings{std::move(given)},
+      tap{recording ? std::optional<LogTap>{std::in_place, settings.name, *recording} : std::nullopt}, input{parts()} {}
 
 InputParts RunningInput::Body::parts() {
     InputParts parts;
@@ -49,6 +50,7 @@ InputParts RunningInput::Body::parts() {
     parts.decoder = settings.decoder->make(settings.decoder_settings.get());
     parts.delay = duration_from_s(settings.delay_s);
     parts.ring = &ring;
+    parts.tap = tap ? &*tap : nullptr;
     parts.on_event = [this](const InputEvent& event) { log(event); };
     return parts;
 }
@@ -62,9 +64,8 @@ void RunningInput::Body::log(const InputEvent& event) {
                 sentence_of(event), more);
 }
 
-RunningInput::RunningInput(const InputSettings& settings)
-    : body_{std::make_shared<Body>(settings)}, thread_{[body = body_](const std::stop_token& stop) {
-          schedule_this_thread(0);
+RunningInput::RunningInput(const InputSettings& settings, LogFile* recording)
+    : body_{std::make_shared<Body>(settings, recording)}, thread_{[body = body_](const std::stop_token& stop) {
           name_this_thread(body->settings.name);
           body->input.run(stop);
       }} {}
@@ -82,11 +83,14 @@ std::vector<InputSet::Slot> InputSet::keep_unchanged(std::vector<Slot>& before,
     return slots;
 }
 
-void InputSet::apply(const std::vector<InputSettings>& wanted) {
+void InputSet::apply(const std::vector<InputSettings>& wanted, int priority) {
     std::vector<Slot> slots = keep_unchanged(slots_, wanted);
     stop(slots_); // before the new ones start: they may want the same device
     for (Slot& slot : slots)
-        if (!slot.running && slot.settings.enabled) slot.running = std::make_unique<RunningInput>(slot.settings);
+        if (!slot.running && slot.settings.enabled)
+            slot.running = std::make_unique<RunningInput>(slot.settings, recording_);
+    for (const Slot& slot : slots)
+        if (slot.running) slot.running->schedule(priority);
     slots_ = std::move(slots);
 }
 

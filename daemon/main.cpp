@@ -15,6 +15,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
+#include <stdexcept>
 
 namespace {
 
@@ -22,6 +24,7 @@ enum ExitCode : int { exit_stopped = 0, exit_cannot_run = 1, exit_wrong = 2 };
 
 struct Arguments {
     std::string config = "/etc/locusd/locusd.yaml";
+    std::string record;
     bool check = false;
 };
 
@@ -44,6 +47,15 @@ locus::Listener listen(const locus::Settings& settings) {
     return inherited ? std::move(*inherited) : locus::Listener::bind(settings.publish.socket);
 }
 
+/// Null when none is asked for. Throws std::runtime_error.
+std::unique_ptr<locus::LogFile> recording(const std::string& path) {
+    if (path.empty()) return nullptr;
+    auto file = std::make_unique<locus::LogFile>();
+    std::string error;
+    if (!file->open(path, false, error)) throw std::runtime_error(error);
+    return file;
+}
+
 /// SIGUSR2 stops the fusion thread's work, so that the rig sees the watchdog bite; only where the environment asks.
 locus::Signals signals() {
     if (std::getenv("LOCUSD_DEBUG_STALL_SIGNAL")) return locus::Signals{SIGTERM, SIGINT, SIGHUP, SIGUSR2};
@@ -54,10 +66,11 @@ int serve(const Arguments& arguments, locus::Settings settings) {
     const locus::Signals wanted = signals(); // before the first thread
     locus::use_small_stacks();
     locus::start_log(settings.log.level);
+    const auto record = recording(arguments.record);
     locus::Listener listener = listen(settings);
     spdlog::info("locusd {} starts with {}", locus::release(), arguments.config);
     {
-        locus::Service service{std::move(settings), arguments.config, std::move(listener)};
+        locus::Service service{std::move(settings), arguments.config, std::move(listener), record.get()};
         service.run(wanted);
     }
     spdlog::info("stopped");
@@ -82,6 +95,7 @@ int main(int argc, char** argv) try {
     Arguments arguments;
     CLI::App app{"locusd: real-time positioning daemon"};
     app.add_option("--config", arguments.config, "Configuration file")->capture_default_str();
+    app.add_option("--record", arguments.record, "Also keep all raw input in this file, for locus replay (.log)");
     app.add_flag("--check", arguments.check, "Say what is wrong with the configuration, and start nothing");
     app.set_version_flag("--version", std::string{locus::release()});
     try {

@@ -1,6 +1,5 @@
 #include "daemon/realtime.h"
 
-#include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -15,19 +14,23 @@ namespace {
 constexpr std::size_t stack_bytes = std::size_t{512} << 10;
 constexpr std::size_t touched_bytes = std::size_t{128} << 10;
 
-bool set_policy(int policy, int priority) noexcept {
+bool set_policy(pthread_t thread, int policy, int priority) noexcept {
     sched_param parameters{};
     parameters.sched_priority = priority;
-    return ::pthread_setschedparam(::pthread_self(), policy, &parameters) == 0;
+    return ::pthread_setschedparam(thread, policy, &parameters) == 0;
 }
 
 } // namespace
 
-bool schedule_this_thread(int priority) noexcept {
-    if (priority > 0 && set_policy(SCHED_FIFO, priority)) return true;
-    set_policy(SCHED_OTHER, 0);
-    ::prctl(PR_SET_TIMERSLACK, 1UL);
+bool schedule_thread(pthread_t thread, int priority) noexcept {
+    if (priority > 0 && set_policy(thread, SCHED_FIFO, priority)) return true;
+    set_policy(thread, SCHED_OTHER, 0);
     return false;
+}
+
+bool schedule_this_thread(int priority) noexcept {
+    ::prctl(PR_SET_TIMERSLACK, 1UL);
+    return schedule_thread(::pthread_self(), priority);
 }
 
 void touch_stack() noexcept {

@@ -4,15 +4,24 @@
 
 #include "fusion/time.h"
 
+#include <pthread.h>
+
 #include <string>
 
 namespace locus {
 
-/// Sets the calling thread's policy explicitly, since a thread inherits that of whoever made it. `priority` above 0:
-/// SCHED_FIFO if allowed. Otherwise ordinary scheduling, with a timer slack of 1 ns, which saves some 50 us on each
-/// sleep. True: the thread is SCHED_FIFO now. Processors are left as the service manager gave them to the process: no
-/// thread here narrows its own mask, so none inherits a narrowed one.
+/// Sets a thread's policy explicitly, since a thread inherits that of whoever made it. `priority` above 0: SCHED_FIFO
+/// if allowed. Otherwise ordinary scheduling. True: the thread is SCHED_FIFO now. Processors are left as the service
+/// manager gave them to the process: no thread here narrows its own mask, so none inherits a narrowed one.
+bool schedule_thread(pthread_t thread, int priority) noexcept;
+
+/// The same for the calling thread, with a timer slack of 1 ns, which saves some 50 us on each sleep where scheduling
+/// is ordinary.
 bool schedule_this_thread(int priority) noexcept;
+
+/// What inputs and the publisher run at when the fusion thread runs at `fusion_priority`: they must not keep a tick
+/// waiting, but a pose is no earlier than its bytes are read and its line is written.
+constexpr int beside_fusion(int fusion_priority) { return fusion_priority > 0 ? fusion_priority - 1 : 0; }
 
 /// Maps the stack's pages before they are needed.
 void touch_stack() noexcept;

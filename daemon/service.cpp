@@ -25,12 +25,11 @@ std::string engine_text(const Settings& settings) {
 
 } // namespace
 
-Service::Service(Settings settings, std::string config, Listener listener)
-    : settings_{std::move(settings)}, config_{std::move(config)}, started_{monotonic_now()},
-      fusion_{plan(std::make_unique<Engine>(settings_.engine)), output_, ticked_},
+Service::Service(Settings settings, std::string config, Listener listener, LogFile* recording)
+    : settings_{std::move(settings)}, config_{std::move(config)}, started_{monotonic_now()}, recording_{recording},
+      inputs_{recording}, fusion_{plan(std::make_unique<Engine>(settings_.engine)), output_, ticked_},
       publisher_{std::move(listener), output_, ticked_, post_, roster()} {
     publisher_thread_ = std::jthread{[this](const std::stop_token& stop) {
-        schedule_this_thread(0);
         name_this_thread("publisher");
         publisher_.run(stop);
     }};
@@ -45,13 +44,16 @@ Service::~Service() {
     fusion_thread_.request_stop();
     publisher_thread_.request_stop();
     inputs_.stop();
+    flush_recording();
 }
 
 /// Settings that were checked come into force; `engine` null: the one in use stays.
 void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
     settings_ = std::move(settings);
     if (engine) ++generation_;
-    inputs_.apply(settings_.inputs);
+    const int priority = beside_fusion(settings_.realtime.priority);
+    inputs_.apply(settings_.inputs, priority);
+    schedule_thread(publisher_thread_.native_handle(), priority);
     auto next = plan(std::move(engine));
     lock();
     plan_on_its_way_ = fusion_.plans.give(next);
@@ -101,6 +103,7 @@ void Service::run(const Signals& signals) {
         collect_retired();
         serve_reload_requests();
         report();
+        flush_recording();
     }
     manager_.stopping();
 }
@@ -188,6 +191,12 @@ void Service::report() {
     }
     manager_.status(summary(), now);
     if (manager_.is_due(now) && vital_signs_.both_moved(fusion_.heartbeat(), publisher_.heartbeat())) manager_.alive();
+}
+
+void Service::flush_recording() {
+    if (!recording_ || recording_->flush()) return;
+    spdlog::error("the recording is not complete: is the disk full?");
+    recording_ = nullptr;
 }
 
 std::string Service::summary() const {

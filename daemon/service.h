@@ -21,8 +21,8 @@ namespace locus {
 class Service {
   public:
     /// Makes the engine and starts every thread. Throws std::invalid_argument with a sentence when the settings cannot
-    /// work. `config`: path that a reload reads again.
-    Service(Settings settings, std::string config, Listener listener);
+    /// work. `config`: path that a reload reads again. `recording` gets what comes in and outlives this; null: none.
+    Service(Settings settings, std::string config, Listener listener, LogFile* recording = nullptr);
 
     /// Stops every thread; takes about 0.1 s.
     ~Service();
@@ -49,6 +49,7 @@ class Service {
     void reload_and_log();
     void collect_retired();
     void report();
+    void flush_recording();
     std::string summary() const;
 
     Settings settings_;
@@ -63,6 +64,8 @@ class Service {
     bool hang_up_ = false; ///< SIGHUP came
     Manager manager_;
     VitalSigns vital_signs_;
+
+    LogFile* recording_; ///< null: none, or it could not be written any more
 
     FusionOutput output_;
     Wake ticked_;

@@ -23,6 +23,7 @@ void add_reload(CLI::App& root, int& exit_code);
 void add_evaluate(CLI::App& root, int& exit_code);
 void add_replay(CLI::App& root, int& exit_code);
 void add_simulate(CLI::App& root, int& exit_code);
+void add_play(CLI::App& root, int& exit_code);
 void add_check(CLI::App& root, int& exit_code);
 void add_config(CLI::App& root, int& exit_code);
 

@@ -18,6 +18,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_completion,
     locus::add_simulate,
     locus::add_replay,
+    locus::add_play,
 });
 }
 

@@ -114,12 +114,13 @@ void add_record(CLI::App& root, int& exit_code) {
         ->check(CLI::PositiveNumber);
     app.add_flag("--force", options->force, "Overwrite the file when it is there already");
     app.add_flag("--json", options->json, "Print the counts as one JSON object");
-    app.footer("It opens the devices itself: stop locusd first.\n"
-               "Example:\n  locus record --config /etc/locusd/locusd.yaml -o hall.log --seconds 60\n"
-               "  locus replay hall.log --config /etc/locusd/locusd.yaml --poses hall.tum\n"
-               "CAN lines are candump's format: `canplayer -I hall.log vcan0=uwb` plays those of input uwb\n"
-               "(it takes names of up to 15 letters only).\n"
-               "Exit codes: 0 recorded, 1 nothing came or the disk is full, 2 wrong use or configuration.");
+    app.footer(
+        "It opens the devices itself: stop locusd first, or have it record as it works: locusd --record hall.log\n"
+        "Example:\n  locus record --config /etc/locusd/locusd.yaml -o hall.log --seconds 60\n"
+        "  locus replay hall.log --config /etc/locusd/locusd.yaml --poses hall.tum\n"
+        "CAN lines are candump's format: `canplayer -I hall.log vcan0=uwb` plays those of input uwb\n"
+        "(it takes names of up to 15 letters only).\n"
+        "Exit codes: 0 recorded, 1 nothing came or the disk is full, 2 wrong use or configuration.");
     app.callback([options, &exit_code] { exit_code = record(*options); });
 }
 

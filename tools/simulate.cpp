@@ -1,13 +1,12 @@
 // locus simulate: a scenario played to the daemon through real devices, or into a recording.
 #include "drivers/clock.h"
 #include "tools/client/command.h"
+#include "tools/interrupt.h"
 #include "tools/simulate/simulation.h"
 #include "tools/simulate/truth.h"
 
 #include <fmt/format.h>
 
-#include <csignal>
-#include <ctime>
 #include <deque>
 #include <fstream>
 #include <stdexcept>
@@ -32,23 +31,6 @@ struct SimulateOptions {
     bool print_config = false;
     bool reference = false;
 };
-
-volatile std::sig_atomic_t stop = 0; // NOLINT(*-non-const-global-variables): all that a signal handler can reach
-
-void stop_on_signals() {
-    struct sigaction action{};
-    action.sa_handler = [](int) { stop = 1; };
-    ::sigaction(SIGINT, &action, nullptr);
-    ::sigaction(SIGTERM, &action, nullptr);
-    ::signal(SIGPIPE, SIG_IGN); // a pipe without a reader is a loss, no end
-}
-
-void sleep_until(Timestamp time) {
-    const std::int64_t ns = to_ns(time);
-    const timespec until{ns / 1'000'000'000, ns % 1'000'000'000};
-    while (!stop && ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-    }
-}
 
 /// A file that is written as the simulation goes, and must be whole at its end.
 class ResultFile {
@@ -93,9 +75,9 @@ class Outputs {
 };
 
 void run(Simulation& simulation, Timestamp end, bool fast) {
-    while (!stop && simulation.next() < end) {
-        if (!fast) sleep_until(simulation.next());
-        if (!stop) simulation.step();
+    while (!tools::interrupted() && simulation.next() < end) {
+        if (!fast) tools::sleep_until_or_interrupted(simulation.next());
+        if (!tools::interrupted()) simulation.step();
     }
 }
 
@@ -105,7 +87,7 @@ int simulate_scenario(const Scenario& scenario, const SimulateOptions& options) 
     const Timestamp end = duration_s > 0 ? start + duration_from_s(duration_s) : Timestamp::max();
     Simulation simulation(scenario, start);
     Outputs outputs(scenario, options, simulation);
-    stop_on_signals();
+    tools::catch_interrupts();
     run(simulation, end, options.fast);
     outputs.finish();
     if (simulation.lost() > 0) complain(fmt::format("{} packets were lost: nobody read them", simulation.lost()));

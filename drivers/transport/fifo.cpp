@@ -48,7 +48,8 @@ TransportRow fifo_row() {
             option_table<FifoSettings>(fifo_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Fifo>(*static_cast<const FifoSettings*>(settings));
-            }};
+            },
+            "path"};
 }
 
 } // namespace locus

@@ -50,7 +50,8 @@ TransportRow pty_row() {
             option_table<PtySettings>(pty_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Pty>(*static_cast<const PtySettings*>(settings));
-            }};
+            },
+            "path"};
 }
 
 } // namespace locus

@@ -151,7 +151,8 @@ TransportRow serial_row() {
             option_table<SerialSettings>(serial_options),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Serial>(*static_cast<const SerialSettings*>(settings));
-            }};
+            },
+            "path"};
 }
 
 } // namespace locus

@@ -51,6 +51,7 @@ struct TransportRow {
     bool needs_network;       ///< opens an IP socket: the unit's drop-in must allow AF_INET
     OptionTable options;
     std::unique_ptr<Transport> (*make)(const void* settings);
+    std::string_view sole_option{}; ///< names a device that one reader alone can have; empty: there is none such
 
     /// Whether a decoder of that wire can be fed by it.
     constexpr bool carries(Wire wanted) const { return !wire || *wire == wanted; }

@@ -4,10 +4,13 @@
 #include "tests/support/daemon_process.h"
 #include "tests/support/socket_client.h"
 
+#include <sched.h>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 
 namespace locus {
@@ -185,6 +188,34 @@ TEST_F(DaemonTest, CheckSaysSoAndStartsNothing) {
     EXPECT_NE(test::read_all(log_).find("no mistakes found"), std::string::npos);
     daemon_ = std::make_unique<test::DaemonProcess>(std::vector<std::string>{"--chekc"}, log_);
     ASSERT_TRUE(ends_with(2));
+}
+
+TEST_F(DaemonTest, ARecordingThatIsThereIsNotOverwritten) {
+    test::write_all(folder_ / "precious.log", "precious\n");
+    daemon_ = std::make_unique<test::DaemonProcess>(
+        std::vector<std::string>{"--config", config_, "--record", folder_ / "precious.log"}, log_);
+    ASSERT_TRUE(ends_with(1));
+    EXPECT_NE(test::read_all(log_).find("is there already: take another name"), std::string::npos);
+    EXPECT_EQ(test::read_all(folder_ / "precious.log"), "precious\n");
+}
+
+TEST_F(DaemonTest, EveryThreadThatAMeasurementPassesIsRealTimeTheFusionThreadAboveTheRest) {
+    start();
+    SocketClient client{socket_};
+    ASSERT_TRUE(comes_to(client, 3, 5));
+    if (client.ask("?STATUS;", "STATUS")["realtime"] != true) GTEST_SKIP() << "real-time scheduling is not allowed";
+    std::map<std::string, int> priorities;
+    for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", daemon_->pid()))) {
+        sched_param parameters{};
+        ::sched_getparam(std::stoi(task.path().filename()), &parameters);
+        std::string name = test::read_all(task.path() / "comm");
+        name.pop_back();
+        priorities[name] = parameters.sched_priority;
+    }
+    EXPECT_EQ(priorities["fusion"], 50);
+    EXPECT_EQ(priorities["tag"], 49);
+    EXPECT_EQ(priorities["publisher"], 49);
+    EXPECT_EQ(priorities["locusd"], 0) << "what is slow is not real-time";
 }
 
 TEST_F(DaemonTest, ASecondDaemonDoesNotTakeTheSocketAway) {

@@ -31,13 +31,23 @@ Message parse_message(std::string line) {
     return message;
 }
 
-Client::Client(const std::string& path, std::chrono::milliseconds patience) : connection_(path), patience_(patience) {
+Client::Client(const std::string& path, std::chrono::milliseconds patience)
+    : path_(path), connection_(path), patience_(patience) {
+    take_greeting();
+}
+
+void Client::connect_again() {
+    connection_ = Connection(path_);
+    take_greeting();
+}
+
+void Client::take_greeting() {
     auto greeting = receive(std::chrono::steady_clock::now() + patience_);
     if (!greeting)
         throw DaemonError(fmt::format("{} does not answer: see `systemctl status locusd`, or name another socket with "
                                       "--socket",
-                                      path));
-    require_locusd(*greeting, path);
+                                      path_));
+    require_locusd(*greeting, path_);
     version_ = std::move(*greeting);
 }
 

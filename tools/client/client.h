@@ -26,6 +26,9 @@ class Client {
     /// Connects and reads the greeting. Throws DaemonError, also when something else than locusd answers.
     explicit Client(const std::string& path, std::chrono::milliseconds patience = std::chrono::seconds{5});
 
+    /// A new connection in place of the lost one. Throws DaemonError as the constructor does.
+    void connect_again();
+
     const Message& version() const { return version_; }
 
     void send(std::string_view command) { connection_.send(command); }
@@ -39,6 +42,9 @@ class Client {
     Message ask(std::string_view command, std::string_view answer);
 
   private:
+    void take_greeting();
+
+    std::string path_;
     Connection connection_;
     std::chrono::milliseconds patience_;
     Message version_;

@@ -70,7 +70,8 @@ void Connection::send(std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR) continue;
-        if (sent < 0) throw DaemonError(fmt::format("locusd at {} takes no command: {}", path_, std::strerror(errno)));
+        if (sent < 0)
+            throw ConnectionLost(fmt::format("locusd at {} takes no command: {}", path_, std::strerror(errno)));
         text.remove_prefix(static_cast<std::size_t>(sent));
     }
 }
@@ -113,8 +114,8 @@ void Connection::fill() {
     std::array<char, 65536> chunk;
     const ssize_t got = ::recv(fd_.get(), chunk.data(), chunk.size(), 0);
     if (got < 0 && errno == EINTR) return;
-    if (got < 0) throw DaemonError(fmt::format("the connection to locusd broke: {}", std::strerror(errno)));
-    if (got == 0) throw DaemonError("locusd closed the connection: see `systemctl status locusd`");
+    if (got < 0) throw ConnectionLost(fmt::format("the connection to locusd broke: {}", std::strerror(errno)));
+    if (got == 0) throw ConnectionLost("locusd closed the connection: see `systemctl status locusd`");
     buffer_.append(chunk.data(), static_cast<std::size_t>(got));
 }
 

@@ -17,6 +17,11 @@ class DaemonError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// There was a connection, and it is gone: the daemon may come back.
+class ConnectionLost : public DaemonError {
+    using DaemonError::DaemonError;
+};
+
 using Deadline = std::chrono::steady_clock::time_point;
 
 class Connection {
@@ -27,11 +32,11 @@ class Connection {
     /// Throws DaemonError when nothing listens at `path` or it may not be opened.
     explicit Connection(std::string path);
 
-    /// Throws DaemonError when the daemon is gone or has not taken it within some seconds.
+    /// Throws ConnectionLost when the daemon is gone or has not taken it within some seconds.
     void send(std::string_view text);
 
-    /// The next line without its end; empty when none is whole at `deadline`. Throws DaemonError when the daemon has
-    /// closed the connection or the line is too long.
+    /// The next line without its end; empty when none is whole at `deadline`. Throws ConnectionLost when the daemon has
+    /// closed the connection, DaemonError when the line is too long.
     std::optional<std::string> read_line(Deadline deadline);
 
   private:

@@ -3,7 +3,7 @@
 
 #include "config/settings.h"
 #include "drivers/input.h"
-#include "tools/recorder/log_file.h"
+#include "drivers/recording/log_file.h"
 
 #include <functional>
 #include <memory>

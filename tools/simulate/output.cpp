@@ -74,14 +74,14 @@ class PtyOutput : public Output {
 
     void packet(const Packet& packet) override { lost_ += !has_reader() || !write_whole(master_.get(), packet.data); }
 
-  private:
-    UniqueFd master_;
-    DeviceLink link_;
-
-    bool has_reader() const {
+    bool has_reader() override {
         pollfd state{master_.get(), POLLOUT, 0};
         return ::poll(&state, 1, 0) == 1 && !(state.revents & POLLHUP);
     }
+
+  private:
+    UniqueFd master_;
+    DeviceLink link_;
 };
 
 class FifoOutput : public Output {
@@ -93,11 +93,15 @@ class FifoOutput : public Output {
     }
 
     void packet(const Packet& packet) override {
-        // Without a reader a pipe cannot be opened; when the reader has gone, the write fails and it is closed.
-        if (!fd_) fd_.reset(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-        if (fd_ && write_whole(fd_.get(), packet.data)) return;
+        if (has_reader() && write_whole(fd_.get(), packet.data)) return;
         ++lost_;
         if (errno != EAGAIN) fd_.reset();
+    }
+
+    /// Without a reader a pipe cannot be opened; when the reader has gone, the next write fails and it is closed.
+    bool has_reader() override {
+        if (!fd_) fd_.reset(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+        return static_cast<bool>(fd_);
     }
 
   private:
@@ -152,7 +156,7 @@ const Device* find_device(std::string_view transport) {
 
 std::string cannot_open(const InputSettings& input) {
     if (find_device(input.transport->name) != nullptr) return {};
-    return "transport " + std::string(input.transport->name) + " cannot be simulated: use pty, fifo or can";
+    return "transport " + std::string(input.transport->name) + " cannot be fed from here: use pty, fifo or can";
 }
 
 std::unique_ptr<Output> make_output(const InputSettings& input) {

@@ -1,5 +1,5 @@
-// Where simulated bytes go: a pseudo-terminal of our own, a named pipe, a CAN interface, or a recording. A device that
-// nobody reads loses its bytes, as a real one does; nothing here ever waits for a reader.
+// Where simulated and replayed bytes go: a pseudo-terminal of our own, a named pipe, a CAN interface, or a recording. A
+// device that nobody reads loses its bytes, as a real one does; nothing here ever waits for a reader.
 #pragma once
 
 #include "config/settings.h"
@@ -14,6 +14,8 @@ namespace locus::simulate {
 
 class Output : public PacketSink {
   public:
+    /// Whether somebody would take a packet now. A bus takes them all.
+    virtual bool has_reader() { return true; }
     /// Packets that nobody took.
     std::uint64_t lost() const { return lost_; }
 
@@ -21,7 +23,7 @@ class Output : public PacketSink {
     std::uint64_t lost_ = 0;
 };
 
-/// Whether a sensor with this transport can be simulated: pty, fifo or can. The sentence says so when not.
+/// Whether bytes can be put into this transport: pty, fifo or can. The sentence says so when not.
 std::string cannot_open(const InputSettings& input);
 
 /// Throws std::runtime_error with a sentence when the device cannot be made. `input` is one that cannot_open() has

@@ -1,6 +1,8 @@
-// The floor: a process that reads a terminal and writes every chunk to one socket client, and nothing else.
+// The floor: a process that reads a terminal and writes every chunk to one socket client, and nothing else; scheduled
+// as the daemon's threads are.
 #pragma once
 
+#include "daemon/realtime.h"
 #include "drivers/transport/unique_fd.h"
 
 #include <fcntl.h>
@@ -18,8 +20,10 @@ namespace locus::bench {
 
 class BareCopy {
   public:
-    BareCopy(const std::string& device, const std::string& socket_path) : pid_{::fork()} {
-        if (pid_ == 0) ::_exit(copy(device, socket_path));
+    BareCopy(const std::string& device, const std::string& socket_path, int priority) : pid_{::fork()} {
+        if (pid_ != 0) return;
+        schedule_this_thread(priority);
+        ::_exit(copy(device, socket_path));
     }
     ~BareCopy() {
         ::kill(pid_, SIGKILL);

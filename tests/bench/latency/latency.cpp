@@ -53,21 +53,24 @@ std::vector<Timestamp> send_reports(const test::FakeDevice& device, int count) {
     std::mt19937 random{1};
     std::uniform_int_distribution<std::int64_t> pause_ns{40'000'000, 60'000'000};
     std::vector<Timestamp> sent;
-    for (int i = 0; i < count; ++i) {
-        sleep_until(monotonic_now() + Duration{pause_ns(random)});
-        const std::string line = report(0, static_cast<std::uint8_t>(i));
-        sent.push_back(monotonic_now());
-        device.send(line);
-    }
+    std::thread{[&] {
+        schedule_this_thread(priority);
+        for (int i = 0; i < count; ++i) {
+            sleep_until(monotonic_now() + Duration{pause_ns(random)});
+            const std::string line = report(0, static_cast<std::uint8_t>(i));
+            sent.push_back(monotonic_now());
+            device.send(line);
+        }
+    }}.join();
     return sent;
 }
 
 Figures bare_copy() {
     const test::TemporaryFolder folder;
     const test::FakeDevice device{folder / "tty"};
-    const BareCopy copy{folder / "tty", folder / "sock"};
+    const BareCopy copy{folder / "tty", folder / "sock", priority};
     const test::SocketClient client{folder / "sock"};
-    Recorder recorder{client.fd()};
+    Recorder recorder{client.fd(), priority};
     const auto sent = send_reports(device, reports);
     std::this_thread::sleep_for(std::chrono::milliseconds{200});
     const auto lines = recorder.lines();
@@ -120,7 +123,7 @@ DaemonLatency through_daemon(double rate_hz) {
     Daemon daemon{rate_hz};
     send_reports(daemon.device, 40); // the filter starts and settles
     daemon.client->ask("?WATCH={};", "WATCH");
-    Recorder recorder{daemon.client->fd()};
+    Recorder recorder{daemon.client->fd(), priority};
     const auto sent = send_reports(daemon.device, reports);
     std::this_thread::sleep_for(std::chrono::milliseconds{200});
     const auto poses = poses_of(recorder.lines());
@@ -173,7 +176,7 @@ void send_ten_tags(const test::FakeDevice& device, int rounds) {
 void print_cpu() {
     Daemon daemon{100};
     daemon.client->ask("?WATCH={};", "WATCH");
-    Recorder reader{daemon.client->fd()};
+    Recorder reader{daemon.client->fd(), priority};
     send_ten_tags(daemon.device, 20);
     const Timestamp begin = monotonic_now();
     auto before = cpu_ns(daemon.process->pid());
@@ -193,27 +196,61 @@ void print_row(std::string_view what, const Figures& figures) {
     fmt::print("| {} | {:.0f} | {:.0f} | {:.0f} | {} |\n", what, figures.p50, figures.p99, figures.max, figures.count);
 }
 
+void print_latency_rows(std::string_view where) {
+    print_row(fmt::format("bare copy, terminal to socket{}", where), bare_copy());
+    for (const double rate_hz : {100.0, 1000.0}) {
+        const auto [wire, tick] = through_daemon(rate_hz);
+        print_row(fmt::format("locusd at {:g} Hz{}", rate_hz, where), wire);
+        print_row(fmt::format("of it after the tick, {:g} Hz{}", rate_hz, where), tick);
+    }
+}
+
+/// Programs that want every processor, at ordinary priority.
+class BusyNeighbours {
+  public:
+    BusyNeighbours() {
+        for (unsigned i = 0; i < 4 * std::thread::hardware_concurrency(); ++i)
+            threads_.emplace_back([](const std::stop_token& stop) {
+                while (!stop.stop_requested()) {
+                }
+            });
+    }
+
+  private:
+    std::vector<std::jthread> threads_;
+};
+
 void print_latency() {
     fmt::print(
         "| from the last byte written into a pseudo-terminal to the line at a socket client, us | p50 | p99 | max "
         "| reports |\n|---|---|---|---|---|\n");
-    print_row("bare copy, terminal to socket", bare_copy());
-    for (const double rate_hz : {100.0, 1000.0}) {
-        const auto [wire, tick] = through_daemon(rate_hz);
-        print_row(fmt::format("locusd at {:g} Hz", rate_hz), wire);
-        print_row(fmt::format("of it after the tick, {:g} Hz", rate_hz), tick);
-    }
+    print_latency_rows("");
+    const BusyNeighbours busy;
+    print_latency_rows(", busy machine");
+}
+
+void print_heading() {
+    std::string load;
+    std::getline(std::ifstream{"/proc/loadavg"}, load, ' ');
+    fmt::print(
+        "# Latency\n\nMade by `build/release/tests/bench/latency > docs/latency.md`, all in one run. A pose goes out "
+        "at "
+        "the next tick, so the wait for it is most\nof the way: anything from nothing to one period, 5 ms in the mean "
+        "at "
+        "100 Hz and so the 5 ms of its p50; `fusion.rate_hz` shortens it. The\nrest is the row `after the tick`: "
+        "engine, "
+        "ring, wake-up, JSON and socket. `busy machine`: four busy loops a core run beside it at\nordinary priority. "
+        "Every thread that a measurement passes is SCHED_FIFO where that is allowed (`realtime.priority`), and so are\n"
+        "the bare copy, the sender and the client. Maxima are the machine's: a stall of the virtual machine hits every "
+        "row alike.\n\nThis run: {} cores, load {} before it began.\n\n",
+        std::thread::hardware_concurrency(), load);
 }
 
 } // namespace
 } // namespace locus::bench
 
 int main() {
-    fmt::print(
-        "# Latency\n\nMade by `build/release/tests/bench/latency > docs/latency.md`, all in one run. A pose goes out "
-        "at the next tick, so up to one period\n(10 ms at 100 Hz) is waiting; `fusion.rate_hz` shortens it. The rest "
-        "is the second row: engine, ring, wake-up, JSON and socket.\nMaxima are the machine's: a stall of the "
-        "virtual machine hits every row alike.\n\n");
+    locus::bench::print_heading();
     locus::bench::print_latency();
     fmt::print("\n## Ticks\nLateness of the wake-up in us, SCHED_FIFO where allowed, both at the same time over ten "
                "seconds.\n\n"

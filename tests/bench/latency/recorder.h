@@ -1,6 +1,8 @@
-// Reads lines from a socket in a thread of its own and notes when each came.
+// Reads lines from a socket in a thread of its own and notes when each came. On a busy machine it must not be the one
+// that waits, so it is scheduled as what it measures.
 #pragma once
 
+#include "daemon/realtime.h"
 #include "drivers/clock.h"
 
 #include <poll.h>
@@ -20,7 +22,11 @@ struct TimedLine {
 
 class Recorder {
   public:
-    explicit Recorder(int fd) : thread_{[this, fd](const std::stop_token& stop) { read(fd, stop); }} {}
+    Recorder(int fd, int priority)
+        : thread_{[this, fd, priority](const std::stop_token& stop) {
+              schedule_this_thread(priority);
+              read(fd, stop);
+          }} {}
 
     /// Ends the thread; call it once.
     std::vector<TimedLine> lines() {

@@ -71,7 +71,22 @@ const Case cases[] = {
      "site:\n  anchors:\n    - {name: a, address: 1, position_site_m: [0, 0, 0]}\n"
      "    - {name: b, address: 1, position_site_m: [0, 0, 0]}",
      "4:7: a second anchor with the address 1; the first is in line 3"},
+    {"DoubleDevice",
+     "inputs:\n  - {name: a, transport: serial, path: /dev/ttyUSB0, decoder: trek1000}\n"
+     "  - {name: b, transport: serial, path: /dev/ttyUSB0, decoder: trek1000}",
+     "3:40: a second input that reads /dev/ttyUSB0, which only one can; the first is in line 2"},
+    {"DoubleDeviceByAnotherTransport",
+     "inputs:\n  - {name: a, transport: serial, path: /dev/ttyUSB0, decoder: trek1000}\n"
+     "  - {name: b, transport: pty, path: /dev/ttyUSB0, decoder: trek1000}",
+     "3:37: a second input that reads /dev/ttyUSB0, which only one can; the first is in line 2"},
     // Names of things there are none of.
+    {"UnknownKeyForDecoder", "inputs:\n  - {name: a, transport: fifo, path: /f,\n     decodr: trek1000, tag_offset: 3}",
+     "2:5: input lacks \"decoder\": What it speaks: one of the decoders below.\n"
+     "3:6: input has no setting \"decodr\"; did you mean \"decoder\"?"},
+    {"UnknownKeyOfAnUnknownTransport",
+     "inputs:\n  - {name: a, transport: seriel,\n     paht: /f, baud_bd: 9600, decoder: trek1000}",
+     "2:26: there is no transport \"seriel\"; did you mean \"serial\"?\n"
+     "3:6: input has no setting \"paht\"; did you mean \"path\"?"},
     {"UnknownTransport", "inputs: [{name: a, transport: seriel, decoder: trek1000, baud_bd: 9600}]",
      R"(1:31: there is no transport "seriel"; did you mean "serial"?)"},
     {"UnknownDecoder", "inputs: [{name: a, transport: fifo, path: /f, decoder: trek100}]",

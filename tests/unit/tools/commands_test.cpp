@@ -117,6 +117,28 @@ TEST(Watch, EndsInTimeWithoutAPoseAndSaysNo) {
     EXPECT_EQ(run_client({"watch", "--seconds", "0.05", "--socket", daemon.path()}).exit_code, exit_no);
 }
 
+TEST(Watch, GoesOnWhenTheDaemonComesBack) {
+    const FakeDaemon daemon({{"?WATCH", watch_line + pose(1, 0.2)}}); // ends the connection at ?TARGETS
+    const auto result = run_client({"watch", "--json", "--count", "2", "--socket", daemon.path()});
+    EXPECT_EQ(result.exit_code, exit_yes);
+    EXPECT_EQ(result.out, pose(1, 0.2) + pose(1, 0.2)) << "nothing but poses";
+    EXPECT_THAT(result.err, HasSubstr("waiting for it to come back\nlocus: connected again\n"));
+}
+
+TEST(Watch, SaysSoWhenTheDaemonIsStillGoneAtTheEnd) {
+    auto daemon = std::make_unique<FakeDaemon>(
+        FakeDaemon::Answers{{"?WATCH", watch_line + pose(1, 0.2)}, {"?TARGETS", targets_line}});
+    const std::string path = daemon->path();
+    CommandResult result;
+    std::jthread end{[&] {
+        while (daemon->commands().empty()) std::this_thread::yield();
+        daemon.reset();
+    }};
+    result = run_client({"watch", "--seconds", "0.5", "--socket", path});
+    EXPECT_EQ(result.exit_code, exit_no_daemon);
+    EXPECT_THAT(result.err, HasSubstr("locusd is not running"));
+}
+
 TEST(Watch, RefusalsOfTheDaemonAreShown) {
     const FakeDaemon daemon({{"?WATCH", "{\"class\":\"ERROR\",\"message\":\"rate_hz must be above 0\"}\n"}});
     const auto result = run_client({"watch", "--socket", daemon.path()});

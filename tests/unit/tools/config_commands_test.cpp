@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -47,6 +48,15 @@ TEST(Check, EveryProblemWithItsPlace) {
     EXPECT_EQ(result.exit_code, exit_no);
     EXPECT_THAT(result.err, HasSubstr(file.path() + ":1:14: level cannot be \"loud\""));
     EXPECT_THAT(result.err, HasSubstr(file.path() + ":2:1: the file has no setting \"fusoin\""));
+}
+
+TEST(Check, WaitsForNoPipe) {
+    const std::string pipe = testing::TempDir() + "locus_pipe_" + std::to_string(::getpid());
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const SettingsFile file("inputs: [{name: a, transport: fifo, path: " + pipe + ", decoder: trek1000}]\n");
+    EXPECT_EQ(run({"check", file.path()}).exit_code, exit_yes);
+    EXPECT_THAT(run({"check", pipe}).err, HasSubstr("the file is empty"));
+    std::remove(pipe.c_str());
 }
 
 TEST(Check, Json) {

@@ -1,7 +1,7 @@
 // locus record: what it writes is what came, and it never destroys a recording.
+#include "drivers/recording/log_file.h"
 #include "drivers/recording/log_line.h"
 #include "tools/command.h"
-#include "tools/recorder/log_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST_F(RecordTest, WritesWhatCame) {
     ASSERT_EQ(run("record --config " + yaml + " -o " + path("out.log")), exit_yes);
     const auto lines = lines_of(path("out.log"));
     ASSERT_EQ(lines.size(), 3u);
-    EXPECT_THAT(lines[0], HasSubstr("# locus record"));
+    EXPECT_THAT(lines[0], HasSubstr("# recording begun"));
     std::string error;
     const auto first = from_log_line(lines[1], error), second = from_log_line(lines[2], error);
     ASSERT_TRUE(first && second) << error;
@@ -86,11 +86,11 @@ TEST_F(RecordTest, ABadConfigurationOpensNothing) {
 }
 
 TEST_F(RecordTest, LinesOfManyThreadsStayWhole) {
-    tools::LogFile file;
+    LogFile file;
     std::string error;
     ASSERT_TRUE(file.open(path("out.log"), false, error)) << error;
     const auto record = [&](std::string name) {
-        tools::LogTap tap{name, file};
+        LogTap tap{name, file};
         const std::vector<std::uint8_t> data(200, 0x55);
         for (int i = 0; i < 500; ++i) {
             Packet packet;
@@ -109,7 +109,7 @@ TEST_F(RecordTest, LinesOfManyThreadsStayWhole) {
 
 TEST_F(RecordTest, AFullDiskIsSeen) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-    tools::LogFile file;
+    LogFile file;
     std::string error;
     ASSERT_TRUE(file.open("/dev/full", true, error)) << error;
     EXPECT_FALSE(file.flush());

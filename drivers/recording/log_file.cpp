@@ -1,4 +1,4 @@
-#include "tools/recorder/log_file.h"
+#include "drivers/recording/log_file.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -7,12 +7,12 @@
 #include <cstring>
 #include <ctime>
 
-namespace locus::tools {
+namespace locus {
 namespace {
 
 /// The stamps are CLOCK_MONOTONIC: without this line nobody could tell later on which day it was.
 std::string heading() {
-    return fmt::format("# locus record, begun {:%Y-%m-%dT%H:%M:%SZ}; times are seconds since that computer was started",
+    return fmt::format("# recording begun {:%Y-%m-%dT%H:%M:%SZ}; times are seconds since that computer was started",
                        fmt::gmtime(std::time(nullptr)));
 }
 
@@ -24,7 +24,7 @@ bool LogFile::open(const std::string& path, bool overwrite, std::string& error) 
         write_line(heading());
         return true;
     }
-    error = errno == EEXIST ? fmt::format("'{}' is there already: take another name, or --force to overwrite it", path)
+    error = errno == EEXIST ? fmt::format("'{}' is there already: take another name, or remove it first", path)
                             : fmt::format("'{}' cannot be written: {}", path, std::strerror(errno));
     return false;
 }
@@ -40,4 +40,4 @@ bool LogFile::flush() {
     return std::fflush(file_.get()) == 0 && std::ferror(file_.get()) == 0;
 }
 
-} // namespace locus::tools
+} // namespace locus

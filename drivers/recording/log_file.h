@@ -1,4 +1,4 @@
-// The file that `locus record` writes: the inputs' threads put their lines into it, one after the other.
+// A *.log recording as it is written: the inputs' threads put their lines into it, one after the other.
 #pragma once
 
 #include "drivers/recording/log_line.h"
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <string>
 
-namespace locus::tools {
+namespace locus {
 
 class LogFile {
   public:
@@ -30,7 +30,7 @@ class LogFile {
     std::unique_ptr<std::FILE, Closer> file_;
 };
 
-/// Listens to one input.
+/// Listens to one input. `file` outlives it.
 class LogTap : public PacketSink {
   public:
     LogTap(std::string input, LogFile& file) : input_{std::move(input)}, file_{file} {}
@@ -41,4 +41,4 @@ class LogTap : public PacketSink {
     LogFile& file_;
 };
 
-} // namespace locus::tools
+} // namespace locus
