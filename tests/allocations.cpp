@@ -23,10 +23,14 @@ std::uint64_t locus::test::allocations_of_this_thread() noexcept { return alloca
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
 
+const bool locus::test::under_sanitizer = true;
+
 const int hooks_installed = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
 
 #else
+
+const bool locus::test::under_sanitizer = false;
 
 extern "C" {
 void* __libc_malloc(std::size_t);

@@ -1,29 +1,14 @@
 // No decoder allocates once it is made: the input's thread must not wait for the heap. Every row of the table is fed
-// its own good frames and rubbish while operator new is counted.
+// its own good frames and rubbish while allocations are counted.
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
+#include "tests/allocations.h"
 #include "tests/unit/drivers/collector.h"
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <map>
-#include <new>
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}
-
-// Never inlined: g++ at -O1 takes malloc behind new for a mismatch with delete.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* const memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace locus {
 namespace {
@@ -58,12 +43,12 @@ TEST(Decoders, AllocateNothingPerFrame) {
         const Feed& feed = all_feeds.at(row.name);
         const auto decoder = row.make(row.options.make().get());
         CountingSink sink;
-        const std::size_t before = allocations;
+        const test::AllocationCount allocations;
         for (int round = 0; round < 3; ++round) {
             decoder->decode(test::bytes_packet(feed.text), sink);
             for (const CanFrame& frame : feed.frames) decoder->decode(frame.packet({}), sink);
         }
-        EXPECT_EQ(allocations, before) << row.name;
+        EXPECT_EQ(allocations.made(), 0u) << row.name;
         EXPECT_GT(sink.measurements, 0u) << row.name;
         EXPECT_GT(sink.refusals, 0u) << row.name;
     }
