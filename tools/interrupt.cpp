@@ -7,7 +7,7 @@
 namespace locus::tools {
 namespace {
 
-volatile std::sig_atomic_t raised = 0;
+volatile std::sig_atomic_t raised = 0; // NOLINT(*-non-const-global-variables): all that a signal handler can reach
 
 } // namespace
 

@@ -22,7 +22,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
 });
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     CLI::App app{"locus looks after the positioning daemon locusd"};
     app.require_subcommand(1);
     app.footer("`locus COMMAND --help` shows what a command takes, with an example.\n"
@@ -36,4 +36,7 @@ int main(int argc, char** argv) {
         return code == 0 ? locus::exit_yes : locus::exit_usage;
     }
     return exit_code;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "locus: %s\n", error.what());
+    return locus::exit_usage;
 }
