@@ -15,7 +15,8 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Missing::
     "nothing",
     "no measurement of this target has come yet",
     "too few anchors are heard for a first position",
-    "the anchors heard stand so that no single position follows from them",
+    "the anchors heard stand so that no single position follows from them: if they are all at one height, set "
+    "`planar: true` and `height_m` (locus config --reference); if on one line, add an anchor beside it",
     "the first measurements do not agree on a position",
     "nothing heard of this target for too long",
 };

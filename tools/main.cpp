@@ -2,6 +2,8 @@
 #include "tools/command.h"
 
 #include <array>
+#include <cstdio>
+#include <exception>
 
 namespace {
 constexpr auto commands = std::to_array<locus::AddCommand>({
