@@ -7,6 +7,7 @@ import json
 import math
 import sys
 
+LEAST_SAME = 100
 MOST_M = 0.3
 
 
@@ -25,4 +26,4 @@ common = sorted(live.keys() & replay.keys())
 same = sum(live[tick] == replay[tick] for tick in common)
 furthest_m = max((math.dist(live[t]["position_site_m"], replay[t]["position_site_m"]) for t in common), default=math.inf)
 print(f"{len(live)} live poses, {len(common)} of them in the replay, {same} to the last digit, furthest {furthest_m:.4f} m")
-sys.exit(not (len(common) > 100 and same > len(common) / 2 and furthest_m < MOST_M))
+sys.exit(not (len(common) > 100 and same >= LEAST_SAME and furthest_m < MOST_M))
