@@ -2,15 +2,11 @@
 // because a header that declares posix_memalign in its own way after this one would not agree.
 #include "tests/allocations.h"
 
+#include "tests/support/sanitizer.h"
+
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define LOCUS_SANITIZER_OWNS_MALLOC
-#endif
-#endif
 
 namespace {
 thread_local std::uint64_t allocations = 0;
@@ -18,19 +14,15 @@ thread_local std::uint64_t allocations = 0;
 
 std::uint64_t locus::test::allocations_of_this_thread() noexcept { return allocations; }
 
-#ifdef LOCUS_SANITIZER_OWNS_MALLOC
+#ifdef LOCUS_SANITIZED
 
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
-
-const bool locus::test::under_sanitizer = true;
 
 const int hooks_installed = __sanitizer_install_malloc_and_free_hooks(
     [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
 
 #else
-
-const bool locus::test::under_sanitizer = false;
 
 extern "C" {
 void* __libc_malloc(std::size_t);

@@ -8,9 +8,6 @@ namespace locus::test {
 
 std::uint64_t allocations_of_this_thread() noexcept;
 
-/// Then memory has a shadow, whose pages come when they like.
-extern const bool under_sanitizer;
-
 /// Allocations that this thread has made since construction.
 class AllocationCount {
   public:

@@ -1,8 +1,8 @@
 // locus play: the raw input of a recording into the devices of a configuration, at the pace it came, for a daemon that
 // listens to them as it would to the real ones.
-#include "config/load.h"
 #include "tools/client/command.h"
 #include "tools/play/player.h"
+#include "tools/settings_file.h"
 
 #include <fmt/format.h>
 
@@ -35,11 +35,10 @@ int report(const play::Result& result, const PlayOptions& options) {
 }
 
 int run(const PlayOptions& options) {
-    const LoadResult loaded = load_settings(options.config);
-    for (const ConfigProblem& problem : loaded.problems) complain(to_string(problem));
-    if (!loaded.settings) return exit_usage;
+    const auto settings = tools::settings_of_file(options.config);
+    if (!settings) return exit_usage;
     try {
-        return report(play::play(loaded.settings->inputs, options.request), options);
+        return report(play::play(settings->inputs, options.request), options);
     } catch (const std::runtime_error& error) {
         complain(error.what());
         return exit_usage;

@@ -1,9 +1,9 @@
 // locus record: raw bytes and frames of every input, on one clock, into a file that can be replayed.
-#include "config/load.h"
 #include "tools/client/command.h"
 #include "tools/command.h"
 #include "tools/recorder/counts.h"
 #include "tools/recorder/session.h"
+#include "tools/settings_file.h"
 
 #include <fmt/format.h>
 
@@ -87,9 +87,8 @@ int finish(const RecordSession& session, const RecordOptions& options, bool writ
 }
 
 int record(const RecordOptions& options) {
-    const LoadResult loaded = load_settings(options.config);
-    for (const auto& problem : loaded.problems) complain(to_string(problem));
-    if (!loaded.settings) return exit_usage;
+    const auto settings = settings_of_file(options.config);
+    if (!settings) return exit_usage;
     LogFile file;
     std::string error;
     if (!file.open(options.output, options.force, error)) {
@@ -97,7 +96,7 @@ int record(const RecordOptions& options) {
         return exit_usage;
     }
     const StopSignals signals;
-    RecordSession session{loaded.settings->inputs, file, tell};
+    RecordSession session{settings->inputs, file, tell};
     const bool written = record_until_stopped(session, file, signals, options.seconds);
     return finish(session, options, written);
 }

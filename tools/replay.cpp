@@ -1,7 +1,7 @@
 // locus replay: a recording through the very engine that the daemon runs.
 #include "tools/replay/replay.h"
-#include "config/load.h"
 #include "tools/client/command.h"
+#include "tools/settings_file.h"
 #include "tools/show/terminal.h"
 
 #include <fmt/format.h>
@@ -21,10 +21,9 @@ struct ReplayOptions {
 };
 
 std::optional<Settings> settings_of(const ReplayOptions& options) {
-    LoadResult loaded = load_settings(options.config);
-    for (const ConfigProblem& problem : loaded.problems) complain(to_string(problem));
-    if (loaded.settings && options.rate_hz > 0) loaded.settings->engine.fusion.rate_hz = options.rate_hz;
-    return std::move(loaded.settings);
+    auto settings = tools::settings_of_file(options.config);
+    if (settings && options.rate_hz > 0) settings->engine.fusion.rate_hz = options.rate_hz;
+    return settings;
 }
 
 int tell(const replay::Summary& summary, const ReplayOptions& options) {

@@ -4,7 +4,6 @@
 #include "drivers/recording/log_line.h"
 #include "drivers/transport/transport.h"
 
-#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <mutex>

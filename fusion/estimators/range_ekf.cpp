@@ -1,9 +1,11 @@
 #include "fusion/estimators/range_ekf.h"
 
 #include "fusion/filter/scalar_update.h"
+#include "fusion/geometry/vector.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace locus {
 namespace {
@@ -81,8 +83,7 @@ Verdict RangeEkf::start(Timestamp time) noexcept {
 
 void RangeEkf::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
     if (missing_ == Missing::nothing) ++reset_count_;
-    const Vec3& p = fix.position_site_m;
-    track_.start({p[0], p[1], p[2]}, Eigen::Matrix3d(fix.covariance_m2.data()));
+    track_.start(vector(fix.position_site_m), Eigen::Matrix3d(fix.covariance_m2.data()));
     time_ = used_time_ = time;
     refused_share_ = 0;
     missing_ = Missing::nothing;

@@ -2,6 +2,7 @@
 // there is one. Anchors are named by their index in the site.
 #pragma once
 
+#include "fusion/geometry/vector.h"
 #include "fusion/site.h"
 #include "fusion/uwb/range_model.h"
 
@@ -22,8 +23,7 @@ struct Sighting {
 };
 
 inline Eigen::Vector3d anchor_site_m(const Site& site, std::int16_t index) {
-    const Vec3& p = site.anchors[static_cast<std::size_t>(index)].position_site_m;
-    return {p[0], p[1], p[2]};
+    return vector(site.anchors[static_cast<std::size_t>(index)].position_site_m);
 }
 
 inline double predicted_m(const Sighting& s, const Site& site, const Eigen::Vector3d& position_site_m) {

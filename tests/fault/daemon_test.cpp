@@ -1,8 +1,8 @@
 // The daemon as its users meet it: bytes into a pseudo-terminal, poses out of the socket, and everything that goes
 // wrong on the way.
 #include "drivers/uwb/trek1000.h"
-#include "tests/allocations.h"
 #include "tests/support/daemon_process.h"
+#include "tests/support/sanitizer.h"
 #include "tests/support/socket_client.h"
 
 #include <sched.h>

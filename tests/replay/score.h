@@ -3,6 +3,7 @@
 
 #include "fusion/estimators/estimator.h"
 #include "fusion/geometry/error_bound.h"
+#include "fusion/geometry/vector.h"
 #include "tests/replay/crazyflie.h"
 
 #include <Eigen/Dense>
@@ -50,8 +51,7 @@ inline std::optional<Eigen::Vector3d> antenna_at(const Flight& flight, double ti
 }
 
 inline void add(Score& score, const Estimate& estimate, const Eigen::Vector3d& antenna_site_m) {
-    const Vec3& p = estimate.position_site_m;
-    const Eigen::Vector3d error = Eigen::Vector3d(p[0], p[1], p[2]) - antenna_site_m;
+    const Eigen::Vector3d error = vector(estimate.position_site_m) - antenna_site_m;
     const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> all(estimate.covariance.data());
     const Eigen::Matrix3d covariance = all.topLeftCorner<3, 3>();
     const Eigen::Matrix2d horizontal = covariance.topLeftCorner<2, 2>();

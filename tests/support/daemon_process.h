@@ -2,6 +2,7 @@
 #pragma once
 
 #include "drivers/transport/unique_fd.h"
+#include "tests/support/temporary_folder.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -22,22 +23,6 @@
 #include <vector>
 
 namespace locus::test {
-
-/// A folder that is removed at the end.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() : path_{std::filesystem::temp_directory_path() / "locusd-XXXXXX"} {
-        if (!::mkdtemp(path_.data())) throw std::runtime_error("mkdtemp");
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-
-  private:
-    std::string path_;
-};
 
 /// A pseudo-terminal whose far end a link points at, as udev's names do. Destroyed, it is unplugged.
 class FakeDevice {

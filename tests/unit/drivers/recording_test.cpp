@@ -33,7 +33,7 @@ class RecordingTest : public testing::Test {
         return status;
     }
 
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     KeepingSink sink;
 };
 

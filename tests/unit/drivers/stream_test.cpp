@@ -39,7 +39,7 @@ struct SimulatedDevice {
 };
 
 TEST(Pty, BytesPassUntouchedBothWays) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     SimulatedDevice device{folder / "uwb"};
     const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
     ASSERT_TRUE(pty->open()) << pty->last_error();
@@ -59,7 +59,7 @@ TEST(Pty, BytesPassUntouchedBothWays) {
 }
 
 TEST(Pty, SilenceIsNoLoss) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     SimulatedDevice device{folder / "uwb"};
     const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
     ASSERT_TRUE(pty->open());
@@ -69,7 +69,7 @@ TEST(Pty, SilenceIsNoLoss) {
 }
 
 TEST(Pty, ALongChunkComesInShortPackets) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     SimulatedDevice device{folder / "uwb"};
     const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
     ASSERT_TRUE(pty->open());
@@ -83,7 +83,7 @@ TEST(Pty, ALongChunkComesInShortPackets) {
 }
 
 TEST(Pty, IsForOneReader) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     SimulatedDevice device{folder / "uwb"};
     const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
     const auto other = make_transport("pty", {{"path", folder / "uwb"}});
@@ -95,7 +95,7 @@ TEST(Pty, IsForOneReader) {
 }
 
 TEST(Pty, ClosedMasterIsALossAndTheLinkIsFollowedAnew) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     auto device = std::make_unique<SimulatedDevice>(folder / "uwb");
     const auto pty = make_transport("pty", {{"path", folder / "uwb"}});
     ASSERT_TRUE(pty->open());
@@ -115,7 +115,7 @@ TEST(Pty, ClosedMasterIsALossAndTheLinkIsFollowedAnew) {
 }
 
 TEST(Pty, AnInputSurvivesItsDevice) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     auto device = std::make_unique<SimulatedDevice>(folder / "uwb");
     KeepingSink tap;
     Input input{{.name = "uwb", .transport = make_transport("pty", {{"path", folder / "uwb"}}), .tap = &tap}};
@@ -137,7 +137,7 @@ TEST(Pty, AnInputSurvivesItsDevice) {
 }
 
 TEST(Pty, RefusesWhatIsNone) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     const auto pty = make_transport("pty", {{"path", folder / "pipe"}});
     EXPECT_FALSE(pty->open());
@@ -145,7 +145,7 @@ TEST(Pty, RefusesWhatIsNone) {
 }
 
 TEST(Fifo, WritersComeAndGo) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     const std::string path = folder / "pipe";
     ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
     const auto fifo = make_transport("fifo", {{"path", path}});
@@ -162,7 +162,7 @@ TEST(Fifo, WritersComeAndGo) {
 }
 
 TEST(Fifo, RefusesAFile) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     UniqueFd file{::open((folder / "file").c_str(), O_CREAT | O_WRONLY, 0600)};
     const auto fifo = make_transport("fifo", {{"path", folder / "file"}});
     EXPECT_FALSE(fifo->open());
@@ -170,7 +170,7 @@ TEST(Fifo, RefusesAFile) {
 }
 
 TEST(Serial, SendsPseudoTerminalsToTheirTransport) {
-    ScratchFolder folder;
+    test::TemporaryFolder folder;
     SimulatedDevice device{folder / "uwb"};
     const auto serial = make_transport("serial", {{"path", folder / "uwb"}});
     EXPECT_FALSE(serial->open());

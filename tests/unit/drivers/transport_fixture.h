@@ -2,12 +2,12 @@
 #pragma once
 
 #include "drivers/transport/transport.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -57,20 +57,5 @@ inline ReadStatus read_bytes(Transport& transport, KeepingSink& sink, std::size_
 inline ReadStatus read_until_lost(Transport& transport, KeepingSink& sink) {
     return read_bytes(transport, sink, std::string::npos);
 }
-
-/// A folder of this test alone, removed at its end.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string path = std::filesystem::temp_directory_path() / "locus-test-XXXXXX";
-        if (!::mkdtemp(path.data())) throw std::runtime_error("mkdtemp");
-        path_ = path;
-    }
-    ~ScratchFolder() { std::filesystem::remove_all(path_); }
-    std::string operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 } // namespace locus::testing_transport

@@ -47,7 +47,7 @@ class UsbSerial : public testing::Test {
     }
     std::unique_ptr<Transport> serial() const { return make_transport("serial", {{"path", by_id_}}); }
 
-    ScratchFolder folder_;
+    test::TemporaryFolder folder_;
     const std::string by_id_ = folder_ / "usb-tag";
     std::filesystem::path authorized_;
     UniqueFd device_;

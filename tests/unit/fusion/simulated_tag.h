@@ -4,6 +4,7 @@
 
 #include "fusion/estimators/range_ekf_settings.h"
 #include "fusion/filter/motion.h"
+#include "fusion/geometry/vector.h"
 #include "fusion/measurement.h"
 #include "fusion/site.h"
 
@@ -66,8 +67,8 @@ class SimulatedTag {
   private:
     double draw() { return normal_(random_); }
     double heard_m(std::size_t anchor) const {
-        const Vec3& a = site_.anchors[anchor].position_site_m;
-        return (motion_.row(0).transpose() - Eigen::Vector3d(a[0], a[1], a[2])).norm() + anchor_error_m_[anchor];
+        const Eigen::Vector3d anchor_site_m = vector(site_.anchors[anchor].position_site_m);
+        return (motion_.row(0).transpose() - anchor_site_m).norm() + anchor_error_m_[anchor];
     }
     Measurement at_now(const Observation& observation) const { return {timestamp_from_s(time_s_), 0, 0, observation}; }
 

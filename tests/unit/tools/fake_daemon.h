@@ -2,6 +2,7 @@
 #pragma once
 
 #include "drivers/transport/unique_fd.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/command.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@
 #include <poll.h>
 
 #include <atomic>
-#include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <mutex>
@@ -47,11 +47,10 @@ class FakeDaemon {
     ~FakeDaemon() {
         stop_ = true;
         thread_.join();
-        std::filesystem::remove_all(folder_);
     }
 
     const std::string& path() const { return path_; }
-    const std::string& folder() const { return folder_; }
+    const std::string& folder() const { return folder_.path(); }
 
     std::vector<std::string> commands() const {
         const std::scoped_lock lock(mutex_);
@@ -59,12 +58,6 @@ class FakeDaemon {
     }
 
   private:
-    static std::string make_folder() {
-        std::string pattern = std::filesystem::temp_directory_path() / "locus_XXXXXX";
-        if (!::mkdtemp(pattern.data())) throw std::runtime_error("the test cannot make " + pattern);
-        return pattern;
-    }
-
     bool readable(int fd) const {
         while (!stop_) {
             pollfd poll{fd, POLLIN, 0};
@@ -110,8 +103,8 @@ class FakeDaemon {
     std::map<std::string, std::string> answers_;
     std::string greeting_;
     std::size_t chunk_bytes_;
-    std::string folder_ = make_folder();
-    std::string path_ = folder_ + "/socket";
+    test::TemporaryFolder folder_;
+    std::string path_ = folder_ / "socket";
     UniqueFd listener_;
     std::atomic<bool> stop_ = false;
     mutable std::mutex mutex_;

@@ -1,5 +1,5 @@
 // locus play: every byte into its device, in order, and a sentence for what cannot be.
-#include "drivers/transport/transport.h"
+#include "tests/unit/drivers/transport_fixture.h"
 #include "tests/unit/tools/fake_daemon.h"
 
 #include <gmock/gmock.h>
@@ -11,19 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-struct ReceivedText : PacketSink {
-    std::string text;
-    void packet(const Packet& packet) override { text.append(packet.data.begin(), packet.data.end()); }
-};
-
 class PlayTest : public testing::Test {
   protected:
-    PlayTest() {
-        std::string path = std::filesystem::temp_directory_path() / "locus-play-XXXXXX";
-        if (!::mkdtemp(path.data())) throw std::runtime_error("mkdtemp");
-        room_ = path;
-    }
-    ~PlayTest() override { std::filesystem::remove_all(room_); }
     std::string path(const std::string& name) const { return room_ / name; }
 
     std::string config(const std::string& transport, const std::string& more = "") const {
@@ -42,12 +31,9 @@ class PlayTest : public testing::Test {
 
     /// What a reader of the device gets while the recording is played.
     std::string read_while_playing(const std::string& transport, const std::string& log, CommandResult& result) const {
-        const auto* const row = find_transport(transport);
-        const auto settings = row->options.make();
-        row->options.rows.front().set(settings.get(), path("tty"));
-        ReceivedText received;
+        const auto device = testing_transport::make_transport(transport, {{"path", path("tty")}});
+        testing_transport::KeepingSink received;
         std::jthread reader{[&](const std::stop_token& stop) {
-            const auto device = row->make(settings.get());
             while (!stop.stop_requested() && !device->open()) std::this_thread::yield();
             while (!stop.stop_requested())
                 if (device->read(received, std::chrono::milliseconds{10}) != ReadStatus::ok) return;
@@ -58,7 +44,7 @@ class PlayTest : public testing::Test {
         return received.text;
     }
 
-    std::filesystem::path room_;
+    test::TemporaryFolder room_;
 };
 
 TEST_F(PlayTest, EveryByteInItsOrderIntoAPseudoTerminalAndAPipe) {

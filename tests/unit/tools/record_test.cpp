@@ -1,6 +1,7 @@
 // locus record: what it writes is what came, and it never destroys a recording.
 #include "drivers/recording/log_file.h"
 #include "drivers/recording/log_line.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/command.h"
 
 #include <gmock/gmock.h>
@@ -24,12 +25,6 @@ std::vector<std::string> lines_of(const std::string& path) {
 
 class RecordTest : public testing::Test {
   protected:
-    RecordTest() {
-        std::string path = std::filesystem::temp_directory_path() / "locus-test-XXXXXX";
-        if (!::mkdtemp(path.data())) throw std::runtime_error("mkdtemp");
-        folder_ = path;
-    }
-    ~RecordTest() override { std::filesystem::remove_all(folder_); }
     std::string path(const std::string& name) const { return folder_ / name; }
 
     /// A site with one input that plays `recording` as fast as it can.
@@ -49,7 +44,7 @@ class RecordTest : public testing::Test {
         return exit_code;
     }
 
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(RecordTest, WritesWhatCame) {
@@ -98,9 +93,7 @@ TEST_F(RecordTest, LinesOfManyThreadsStayWhole) {
             tap.packet(packet);
         }
     };
-    {
-        std::jthread a{record, "a"}, b{record, "b"};
-    }
+    { std::jthread a{record, "a"}, b{record, "b"}; }
     ASSERT_TRUE(file.flush());
     const auto lines = lines_of(path("out.log"));
     EXPECT_EQ(lines.size(), 1001u);

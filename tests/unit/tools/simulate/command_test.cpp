@@ -1,4 +1,5 @@
 // locus simulate as it is typed.
+#include "tests/support/temporary_folder.h"
 #include "tools/command.h"
 
 #include <gmock/gmock.h>
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 namespace locus {
 namespace {
@@ -16,16 +16,11 @@ using ::testing::HasSubstr;
 
 class SimulateCommand : public ::testing::Test {
   protected:
-    std::filesystem::path room = [] {
-        std::string name = "/tmp/locus-simulate-XXXXXX";
-        return std::filesystem::path(::mkdtemp(name.data()));
-    }();
-    ~SimulateCommand() override { std::filesystem::remove_all(room); }
-
+    test::TemporaryFolder room;
     const std::string demo = LOCUS_SOURCE_DIR "/config/examples/demo-scenario.yaml";
     std::string out, err;
 
-    std::string at(const std::string& name) const { return (room / name).string(); }
+    std::string at(const std::string& name) const { return room / name; }
 
     int run(const std::string& arguments) {
         CLI::App app;

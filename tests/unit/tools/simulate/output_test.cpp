@@ -2,6 +2,7 @@
 #include "tools/simulate/output.h"
 
 #include "config/load.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace locus::simulate {
 namespace {
@@ -27,13 +27,7 @@ class OutputTest : public ::testing::Test {
   protected:
     OutputTest() { std::signal(SIGPIPE, SIG_IGN); } // as the program does: a pipe without a reader is a loss, no end
 
-    std::filesystem::path room = make_room();
-    ~OutputTest() override { std::filesystem::remove_all(room); }
-
-    static std::filesystem::path make_room() {
-        std::string name = "/tmp/locus-output-XXXXXX";
-        return ::mkdtemp(name.data());
-    }
+    test::TemporaryFolder room;
 
     InputSettings input(const std::string& transport) const {
         InputSettings input;
@@ -41,7 +35,7 @@ class OutputTest : public ::testing::Test {
         input.transport = find_transport(transport);
         input.transport_settings = input.transport->options.make();
         for (const OptionRow& row : input.transport->options.rows)
-            if (row.name == "path") row.set(input.transport_settings.get(), (room / "device").string());
+            if (row.name == "path") row.set(input.transport_settings.get(), room / "device");
         return input;
     }
 
