@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -37,6 +38,9 @@ class Decoder {
     virtual void decode(const Packet& packet, MeasurementSink& sink) = 0;
     /// Forgets half-received frames: the transport was opened anew.
     virtual void reset() {}
+    /// What the device must be asked now, if anything: bytes of a stream, or a CAN frame; valid until the next call.
+    /// The input asks after each read, so at least ten times a second; a replay never does.
+    virtual std::optional<Packet> request(Timestamp /*now*/) { return std::nullopt; }
 };
 
 struct DecoderRow {

@@ -51,7 +51,9 @@ ReadStatus Input::read_until_lost(const std::stop_token& stop) {
     while (result == ReadStatus::ok && !stop.stop_requested()) {
         result = parts_.transport->read(*this, read_timeout);
         copy_counters();
-        if (result == ReadStatus::ok) tell_trouble();
+        if (result != ReadStatus::ok) break;
+        tell_trouble();
+        ask_device();
     }
     if (result == ReadStatus::lost) fail(InputEvent::Kind::lost, parts_.transport->last_error());
     parts_.transport->close();
@@ -60,6 +62,12 @@ ReadStatus Input::read_until_lost(const std::stop_token& stop) {
         emit(InputEvent::Kind::ended, {});
     }
     return result;
+}
+
+/// What could not be written is not tried again: the decoder asks anew when no answer comes.
+void Input::ask_device() {
+    if (!parts_.decoder) return;
+    if (const auto request = parts_.decoder->request(monotonic_now())) parts_.transport->write(*request);
 }
 
 void Input::fail(InputEvent::Kind kind, std::string_view text) {

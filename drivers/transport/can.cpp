@@ -87,6 +87,8 @@ class Can : public Transport {
         return ReadStatus::lost;
     }
 
+    bool write(const Packet& packet) override { return socket_.send(packet); }
+
     std::uint64_t kernel_dropped() const override { return dropped_; }
     std::uint64_t wire_errors() const override { return health_.error_frames(); }
     std::string_view trouble() const override { return health_.trouble(); }

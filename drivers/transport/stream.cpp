@@ -70,7 +70,8 @@ void StreamTransport::hand_over(std::span<const std::uint8_t> bytes, Timestamp w
     }
 }
 
-bool StreamTransport::write(std::span<const std::uint8_t> bytes) {
+bool StreamTransport::write(const Packet& packet) {
+    auto bytes = packet.data;
     while (!bytes.empty()) {
         const ssize_t size = ::write(fd_.get(), bytes.data(), bytes.size());
         if (size > 0) {

@@ -14,7 +14,7 @@ class StreamTransport : public Transport {
     void close() override { fd_.reset(); }
     /// The bytes of one wake-up, stamped right after the wait (CLOCK_MONOTONIC), in packets of at most `max_packet`.
     ReadStatus read(PacketSink& sink, Duration timeout) override;
-    bool write(std::span<const std::uint8_t> bytes) override;
+    bool write(const Packet& packet) override;
     std::string_view last_error() const override { return error_; }
 
     /// Longer packets would make lines of a recording that canplayer refuses to skip (400 characters).

@@ -33,8 +33,8 @@ class Transport {
     virtual bool open() = 0;
     virtual void close() = 0;
     virtual ReadStatus read(PacketSink& sink, Duration timeout) = 0;
-    /// For devices that must be asked. False when it did not go out whole.
-    virtual bool write(std::span<const std::uint8_t> /*bytes*/) { return false; }
+    /// For devices that must be asked: the bytes, or the CAN frame. False when it did not go out whole.
+    virtual bool write(const Packet& /*packet*/) { return false; }
     /// Frames that the kernel dropped, as it says; counts on over re-opening.
     virtual std::uint64_t kernel_dropped() const { return 0; }
     /// Error frames of a bus; counts on over re-opening.

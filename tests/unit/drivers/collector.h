@@ -29,12 +29,16 @@ struct Collector : MeasurementSink {
     }
 };
 
-inline Packet bytes_packet(std::string_view text, Timestamp time = {}, Duration byte_time = {}) {
+inline Packet bytes_packet(std::span<const std::uint8_t> bytes, Timestamp time = {}, Duration byte_time = {}) {
     Packet packet;
     packet.time = time;
     packet.byte_time = byte_time;
-    packet.data = {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+    packet.data = bytes;
     return packet;
+}
+
+inline Packet bytes_packet(std::string_view text, Timestamp time = {}, Duration byte_time = {}) {
+    return bytes_packet(std::span{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, time, byte_time);
 }
 
 /// A decoder of the table with its default settings.

@@ -22,6 +22,12 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 /// The simulator's end of a pseudo-terminal, with a link to the daemon's end.
+Packet packet_of(std::string_view text) {
+    Packet packet;
+    packet.data = {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+    return packet;
+}
+
 struct SimulatedDevice {
     explicit SimulatedDevice(const std::string& link) {
         int master_fd = -1, slave_fd = -1;
@@ -52,7 +58,7 @@ TEST(Pty, BytesPassUntouchedBothWays) {
     EXPECT_GE(sink.kept.front().packet.time, receive_stamp(before));
     EXPECT_LE(sink.kept.back().packet.time, monotonic_now());
 
-    ASSERT_TRUE(pty->write(std::vector<std::uint8_t>{'d', '\n', 0}));
+    ASSERT_TRUE(pty->write(packet_of({"d\n\0", 3})));
     char echo[8];
     EXPECT_EQ(::read(device.master.get(), echo, sizeof echo), 3);
     EXPECT_EQ(std::string(echo, 3), std::string("d\n\0", 3));
@@ -216,7 +222,7 @@ TEST(Tcp, BytesPassAndTheServersEndIsALoss) {
         ASSERT_EQ(::write(peer.get(), "hello", 5), 5);
         ASSERT_EQ(read_bytes(*tcp, sink, 5), ReadStatus::ok);
         EXPECT_EQ(sink.text, "hello");
-        ASSERT_TRUE(tcp->write(std::vector<std::uint8_t>{'?'}));
+        ASSERT_TRUE(tcp->write(packet_of("?")));
         char asked = 0;
         EXPECT_EQ(::read(peer.get(), &asked, 1), 1);
         EXPECT_EQ(asked, '?');
