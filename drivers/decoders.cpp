@@ -1,5 +1,7 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/layout/can_layout.h"
+#include "drivers/layout/serial_layout.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
@@ -16,6 +18,15 @@ constexpr std::array decoder_rows{
                option_table<uwb::Dw1000CanSettings>(uwb::dw1000_can_options), uwb::make_dw1000_can},
     DecoderRow{"robomaster_can", "DJI RoboMaster UWB tag module: six ranges over CAN", Wire::can,
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
+    DecoderRow{"can_layout", "Any CAN frames, described here signal by signal as in a DBC file: vehicles, UWB",
+               Wire::can,
+               option_table<layout::CanLayoutSettings>(layout::can_layout_options, layout::can_layout_lists,
+                                                       layout::check_can_layout),
+               layout::make_can_layout},
+    DecoderRow{"serial_layout", "Any binary frames of a serial line, described here field by field", Wire::bytes,
+               option_table<layout::SerialLayoutSettings>(layout::serial_layout_options, layout::serial_layout_lists,
+                                                          layout::check_serial_layout),
+               layout::make_serial_layout},
 };
 }
 

@@ -116,15 +116,45 @@ constexpr OptionRow required_option(std::string_view name, std::string_view abou
 
 using Options = std::span<const OptionRow>;
 
+/// A list of maps beside the rows, for what comes in any number: `signals: [{name: ..., start_bit: 7}, ...]`.
+struct OptionList {
+    std::string_view name;
+    std::string_view about;
+    Options rows; ///< of each item
+    void* (*append)(void* settings);
+    std::size_t (*size)(const void* settings);
+    const void* (*item)(const void* settings, std::size_t index);
+};
+
+/// A list bound to a struct member that is a std::vector of plain structs, whose rows `rows` are.
+template <auto Member>
+constexpr OptionList option_list(std::string_view name, std::string_view about, Options rows) {
+    using Struct = typename detail::MemberOf<decltype(Member)>::Struct;
+    return {name,
+            about,
+            rows,
+            [](void* settings) -> void* { return &(static_cast<Struct*>(settings)->*Member).emplace_back(); },
+            [](const void* settings) { return (static_cast<const Struct*>(settings)->*Member).size(); },
+            [](const void* settings, std::size_t index) -> const void* {
+                return &(static_cast<const Struct*>(settings)->*Member)[index];
+            }};
+}
+
+using OptionLists = std::span<const OptionList>;
+
 /// A settings struct whose type only its module knows; `make` gives one that holds the defaults.
 struct OptionTable {
     Options rows;
     std::shared_ptr<void> (*make)();
+    OptionLists lists{};
+    /// For what no row alone can tell: a sentence that says what does not fit together, empty when all is well.
+    std::string (*check)(const void* settings) = nullptr;
 };
 
 template <class Settings>
-constexpr OptionTable option_table(Options rows) {
-    return {rows, []() -> std::shared_ptr<void> { return std::make_shared<Settings>(); }};
+constexpr OptionTable option_table(Options rows, OptionLists lists = {},
+                                   std::string (*check)(const void* settings) = nullptr) {
+    return {rows, []() -> std::shared_ptr<void> { return std::make_shared<Settings>(); }, lists, check};
 }
 
 } // namespace locus

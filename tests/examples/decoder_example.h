@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ struct DecoderExample {
     std::unique_ptr<Decoder> make() const;
     std::shared_ptr<void> settings{};
 };
+
+/// What gtest prints of one.
+inline void PrintTo(const DecoderExample& example, std::ostream* out) { *out << example.decoder; }
 
 /// Every family's examples, in the order of the table in table.cpp.
 const std::vector<DecoderExample>& all();

@@ -68,7 +68,7 @@ TEST_P(Resync, ItDoesNotMatterWhereTheStreamIsCut) {
     const std::size_t until = std::min<std::size_t>(all.size(), 1000);
     for (std::size_t i = 1; i < until; ++i) {
         const auto cut = all.begin() + static_cast<std::ptrdiff_t>(i);
-        ASSERT_EQ(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}), whole) << "cut at byte " << i;
+        ASSERT_TRUE(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}) == whole) << "cut at byte " << i;
     }
 }
 
@@ -83,7 +83,7 @@ TEST_P(Resync, GarbageBetweenFramesCostsNoFrame) {
         }
         const Lines got = decode(damaged), wanted = decode(chunks);
         if (GetParam().checksum)
-            EXPECT_EQ(got, wanted);
+            EXPECT_TRUE(got == wanted) << got.size() << " measurements, " << wanted.size() << " wanted";
         else
             EXPECT_TRUE(holds(got, decode(GetParam().chunks)));
     }
@@ -94,12 +94,14 @@ TEST_P(Resync, ALostByteCostsItsOwnFrameAlone) {
     const std::size_t hit = GetParam().chunks.size() / 2;
     auto others = intact;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(hit));
+    // Without a checksum the damaged frame is believed, with the first byte of the next one as its last.
+    if (!GetParam().checksum && !GetParam().lines) others.erase(others.begin() + static_cast<std::ptrdiff_t>(hit));
     const std::size_t cuttable = intact[hit].size() - GetParam().lines; // without its newline a line swallows the next
     for (std::size_t i = 0; i < cuttable; ++i) {
         auto damaged = intact;
         damaged[hit].erase(damaged[hit].begin() + static_cast<std::ptrdiff_t>(i));
         if (GetParam().checksum)
-            ASSERT_EQ(decode(damaged), decode(others)) << "without byte " << i;
+            ASSERT_TRUE(decode(damaged) == decode(others)) << "without byte " << i;
         else
             ASSERT_TRUE(holds(decode(damaged), decode(others))) << "without byte " << i;
     }

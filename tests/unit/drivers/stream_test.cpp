@@ -214,7 +214,7 @@ struct Server {
 
 TEST(Tcp, BytesPassAndTheServersEndIsALoss) {
     Server server;
-    const auto tcp = make_transport("tcp", {{"host", "localhost"}, {"port", server.port}});
+    const auto tcp = make_transport("tcp", {{"host", "127.0.0.1"}, {"port", server.port}});
     for (int round = 0; round < 2; ++round) {
         ASSERT_TRUE(tcp->open()) << tcp->last_error();
         UniqueFd peer = server.accept();
