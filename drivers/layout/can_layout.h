@@ -56,8 +56,8 @@ inline constexpr std::array can_field_options{
     option<&CanField::multiplexed_by>(
         "multiplexed_by", "", -1, 65535,
         "Value that the frame's multiplexor must have for this field to be there (DBC's mN); -1: always there."),
-    option<&CanField::invalid_raw>("invalid_raw", "", -1, 2147483647,
-                                   "Bits that say \"not known\", as a number; -1: there are none."),
+    option<&CanField::invalid_raw>("invalid_raw", "", 0, no_limit,
+                                   "The bits that say \"not known\", as one unsigned number."),
 };
 
 struct CanLayoutSettings {

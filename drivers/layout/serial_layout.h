@@ -67,8 +67,8 @@ inline constexpr std::array serial_field_options{
     option<&SerialField::factor>("factor", "", -1e9, 1e9, "Worth of one step, in the unit."),
     option<&SerialField::offset>("offset", "", -1e12, 1e12, "Value of zero steps, in the unit."),
     option<&SerialField::unit>("unit", "Unit of factor and offset.", unit_names),
-    option<&SerialField::invalid_raw>("invalid_raw", "", -1, 4294967295.0,
-                                      "Bytes that say \"not known\", as a number; -1: there are none."),
+    option<&SerialField::invalid_raw>("invalid_raw", "", 0, no_limit,
+                                      "The bytes that say \"not known\", as one unsigned number."),
 };
 
 using SerialSettings = SerialLayoutSettings; // for short rows
