@@ -2,9 +2,13 @@
 #include "drivers/decoder.h"
 #include "drivers/layout/can_layout.h"
 #include "drivers/layout/serial_layout.h"
+#include "drivers/radio/hm10.h"
+#include "drivers/radio/xbee.h"
+#include "drivers/radio/znp.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
+#include "drivers/vehicle/obd2.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +22,14 @@ constexpr std::array decoder_rows{
                option_table<uwb::Dw1000CanSettings>(uwb::dw1000_can_options), uwb::make_dw1000_can},
     DecoderRow{"robomaster_can", "DJI RoboMaster UWB tag module: six ranges over CAN", Wire::can,
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
+    DecoderRow{"xbee", "Digi XBee in API mode: signal strength of other radios", Wire::bytes,
+               option_table<radio::XbeeSettings>(radio::xbee_options), radio::make_xbee},
+    DecoderRow{"znp", "TI Z-Stack network processor (CC2530, CC2652): link quality of other radios", Wire::bytes,
+               option_table<radio::ZnpSettings>(radio::znp_options), radio::make_znp},
+    DecoderRow{"hm10", "HM-10 and HM-17 BLE modules: iBeacons that they scan", Wire::bytes,
+               option_table<radio::Hm10Settings>(radio::hm10_options), radio::make_hm10},
+    DecoderRow{"obd2", "OBD-II over CAN: asks a vehicle for its speed and the barometric pressure", Wire::can,
+               option_table<vehicle::Obd2Settings>(vehicle::obd2_options), vehicle::make_obd2},
     DecoderRow{"can_layout", "Any CAN frames, described here signal by signal as in a DBC file: vehicles, UWB",
                Wire::can,
                option_table<layout::CanLayoutSettings>(layout::can_layout_options, layout::can_layout_lists,

@@ -82,7 +82,9 @@ TEST_P(Resync, GarbageBetweenFramesCostsNoFrame) {
             damaged.push_back(chunk);
         }
         const Lines got = decode(damaged), wanted = decode(chunks);
-        if (GetParam().checksum)
+        if (GetParam().weak)
+            EXPECT_NEAR(static_cast<double>(got.size()), static_cast<double>(wanted.size()), 0.02 * wanted.size());
+        else if (GetParam().checksum)
             EXPECT_TRUE(got == wanted) << got.size() << " measurements, " << wanted.size() << " wanted";
         else
             EXPECT_TRUE(holds(got, decode(GetParam().chunks)));
