@@ -83,7 +83,8 @@ TEST_P(Resync, GarbageBetweenFramesCostsNoFrame) {
         }
         const Lines got = decode(damaged), wanted = decode(chunks);
         if (GetParam().weak)
-            EXPECT_NEAR(static_cast<double>(got.size()), static_cast<double>(wanted.size()), 0.02 * wanted.size());
+            EXPECT_NEAR(static_cast<double>(got.size()), static_cast<double>(wanted.size()),
+                        0.02 * static_cast<double>(wanted.size()));
         else if (GetParam().checksum)
             EXPECT_TRUE(got == wanted) << got.size() << " measurements, " << wanted.size() << " wanted";
         else
