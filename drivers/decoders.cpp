@@ -5,6 +5,7 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/imu/witmotion.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
@@ -39,6 +40,10 @@ constexpr std::array decoder_rows{
                option_table<layout::SerialLayoutSettings>(layout::serial_layout_options, layout::serial_layout_lists,
                                                           layout::check_serial_layout),
                layout::make_serial_layout},
+    DecoderRow{"witmotion", "WitMotion inertial modules (JY901, WT901, HWT...) on a serial line", Wire::bytes,
+               option_table<imu::WitMotionSettings>(imu::witmotion_options), imu::make_witmotion},
+    DecoderRow{"witmotion_can", "WitMotion inertial modules on CAN", Wire::can,
+               option_table<imu::WitMotionCanSettings>(imu::witmotion_can_options), imu::make_witmotion_can},
 };
 }
 

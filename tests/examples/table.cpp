@@ -12,10 +12,11 @@ std::vector<DecoderExample> obd2();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
+std::vector<DecoderExample> witmotion();
 
 namespace {
 
-constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000};
+constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000, witmotion};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
