@@ -6,6 +6,8 @@
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
 #include "drivers/imu/witmotion.h"
+#include "drivers/imu/xsens.h"
+#include "drivers/imu/xsens_can.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
@@ -44,6 +46,10 @@ constexpr std::array decoder_rows{
                option_table<imu::WitMotionSettings>(imu::witmotion_options), imu::make_witmotion},
     DecoderRow{"witmotion_can", "WitMotion inertial modules on CAN", Wire::can,
                option_table<imu::WitMotionCanSettings>(imu::witmotion_can_options), imu::make_witmotion_can},
+    DecoderRow{"xsens", "Xsens MTi inertial sensors on a serial line or USB (Xbus, MTData2)", Wire::bytes,
+               option_table<imu::XsensSettings>(imu::xsens_options), imu::make_xsens},
+    DecoderRow{"xsens_can", "Xsens MTi inertial sensors on CAN, with the identifiers they come with", Wire::can,
+               option_table<imu::XsensCanSettings>(imu::xsens_can_options), imu::make_xsens_can},
 };
 }
 

@@ -13,10 +13,11 @@ std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
 std::vector<DecoderExample> witmotion();
+std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000, witmotion};
+constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

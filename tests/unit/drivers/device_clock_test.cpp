@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace locus {
+namespace locus::device_clock_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -216,4 +216,4 @@ TEST(DeviceClock, ResetForgets) {
 }
 
 } // namespace
-} // namespace locus
+} // namespace locus::device_clock_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace locus::imu {
+namespace locus::imu::mounting_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -108,4 +108,4 @@ TEST(OptionTable, ABasesRowsReachItWhereverItStands) {
 }
 
 } // namespace
-} // namespace locus::imu
+} // namespace locus::imu::mounting_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace locus::imu {
+namespace locus::imu::witmotion_test {
 namespace {
 
 using examples::from_hex;
@@ -156,4 +156,4 @@ TEST(WitMotionCan, RefusesWhatIsNoFrameOfIts) {
 }
 
 } // namespace
-} // namespace locus::imu
+} // namespace locus::imu::witmotion_test
