@@ -5,6 +5,7 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/imu/epson_g370.h"
 #include "drivers/imu/witmotion.h"
 #include "drivers/imu/xsens.h"
 #include "drivers/imu/xsens_can.h"
@@ -50,6 +51,8 @@ constexpr std::array decoder_rows{
                option_table<imu::XsensSettings>(imu::xsens_options), imu::make_xsens},
     DecoderRow{"xsens_can", "Xsens MTi inertial sensors on CAN, with the identifiers they come with", Wire::can,
                option_table<imu::XsensCanSettings>(imu::xsens_can_options), imu::make_xsens_can},
+    DecoderRow{"epson_g370", "Epson M-G370 inertial sensors on their UART, 460800 baud: bursts", Wire::bytes,
+               option_table<imu::EpsonSettings>(imu::epson_options), imu::make_epson_g370},
 };
 }
 

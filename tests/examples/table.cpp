@@ -7,6 +7,7 @@
 namespace locus::examples {
 
 std::vector<DecoderExample> dw1000_can();
+std::vector<DecoderExample> epson_g370();
 std::vector<DecoderExample> layouts();
 std::vector<DecoderExample> obd2();
 std::vector<DecoderExample> radio();
@@ -17,7 +18,7 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000, witmotion, xsens};
+constexpr std::array families{dw1000_can, epson_g370, layouts, obd2, radio, robomaster, trek1000, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
