@@ -6,6 +6,7 @@
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
 #include "drivers/imu/epson_g370.h"
+#include "drivers/imu/vectornav.h"
 #include "drivers/imu/witmotion.h"
 #include "drivers/imu/xsens.h"
 #include "drivers/imu/xsens_can.h"
@@ -53,6 +54,8 @@ constexpr std::array decoder_rows{
                option_table<imu::XsensCanSettings>(imu::xsens_can_options), imu::make_xsens_can},
     DecoderRow{"epson_g370", "Epson M-G370 inertial sensors on their UART, 460800 baud: bursts", Wire::bytes,
                option_table<imu::EpsonSettings>(imu::epson_options), imu::make_epson_g370},
+    DecoderRow{"vectornav", "VectorNav VN-100, VN-200, VN-300 on a serial line: binary messages and $VNYMR",
+               Wire::bytes, option_table<imu::VectorNavSettings>(imu::vectornav_options), imu::make_vectornav},
 };
 }
 

@@ -31,7 +31,7 @@ class EpsonReader {
     }
 };
 
-void write_vector(wire::Writer& out, const std::array<std::int32_t, 3>& values, std::size_t size) {
+void write_axes(wire::Writer& out, const std::array<std::int32_t, 3>& values, std::size_t size) {
     for (const std::int32_t value : values) out.big_bytes(static_cast<std::uint64_t>(std::int64_t{value}), size);
 }
 
@@ -62,8 +62,8 @@ std::vector<std::uint8_t> encode(const EpsonBurst& burst, const EpsonSettings& s
     wire::Writer fields;
     if (settings.flag) fields.big(burst.flag);
     if (settings.temperature) fields.big_bytes(static_cast<std::uint64_t>(std::int64_t{burst.temperature}), size);
-    write_vector(fields, burst.gyro, size);
-    write_vector(fields, burst.accel, size);
+    write_axes(fields, burst.gyro, size);
+    write_axes(fields, burst.accel, size);
     if (settings.delta_angle) fields.zeros(3 * size);
     if (settings.delta_velocity) fields.zeros(3 * size);
     if (settings.gpio) fields.big(burst.gpio);

@@ -48,7 +48,7 @@ double rate_of(const EpsonSettings& settings) {
     return rate_hz;
 }
 
-Vec3 scaled(const std::array<std::int32_t, 3>& raw, double step) {
+Vec3 in_units(const std::array<std::int32_t, 3>& raw, double step) {
     return {raw[0] * step, raw[1] * step, raw[2] * step};
 }
 
@@ -86,7 +86,7 @@ class EpsonG370 : public Decoder {
         start_.heard_burst();
         const EpsonBurst burst = parse_epson_burst(frame.bytes, settings_);
         const Timestamp time = settings_.count ? clock_.host_time(burst.count, frame.begun) : frame.begun;
-        mounting_.give(time, scaled(burst.accel, scale_.force_mps2), scaled(burst.gyro, scale_.rate_radps), sink);
+        mounting_.give(time, in_units(burst.accel, scale_.force_mps2), in_units(burst.gyro, scale_.rate_radps), sink);
     }
 };
 

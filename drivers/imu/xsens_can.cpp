@@ -104,32 +104,32 @@ class XsensCan : public Decoder {
     static double read_pressure(wire::Bytes data) { return xsens_pressure_step_pa * wire::big<std::uint32_t>(data, 0); }
 };
 
-CanFrame frame(id::Id can_id, std::uint64_t value, std::size_t length) {
+CanFrame xsens_frame(id::Id can_id, std::uint64_t value, std::size_t length) {
     CanFrame frame{can_id, static_cast<std::uint8_t>(length), {}};
     for (std::size_t i = 0; i < length; ++i) frame.data[i] = static_cast<std::uint8_t>(value >> 8 * (length - 1 - i));
     return frame;
 }
 
-CanFrame vector_frame(id::Id can_id, const Vec3& values, double step) {
+CanFrame xsens_vector_frame(id::Id can_id, const Vec3& values, double step) {
     std::uint64_t bits = 0;
     for (const double value : values) {
         const double steps = std::clamp(std::round(value / step), -32768.0, 32767.0);
         bits = bits << 16 | static_cast<std::uint16_t>(static_cast<std::int16_t>(steps));
     }
-    return frame(can_id, bits, 6);
+    return xsens_frame(can_id, bits, 6);
 }
 
 } // namespace
 
 std::vector<CanFrame> encode(const XsensCanSample& sample) {
     std::vector<CanFrame> frames;
-    if (sample.sample_time) frames.push_back(frame(id::sample_time, *sample.sample_time, 4));
-    frames.push_back(frame(id::group_counter, sample.group_counter, 2));
-    frames.push_back(vector_frame(id::rate_of_turn, sample.rate_radps, xsens_rate_step_radps));
-    frames.push_back(vector_frame(id::acceleration, sample.acceleration_mps2, xsens_force_step_mps2));
+    if (sample.sample_time) frames.push_back(xsens_frame(id::sample_time, *sample.sample_time, 4));
+    frames.push_back(xsens_frame(id::group_counter, sample.group_counter, 2));
+    frames.push_back(xsens_vector_frame(id::rate_of_turn, sample.rate_radps, xsens_rate_step_radps));
+    frames.push_back(xsens_vector_frame(id::acceleration, sample.acceleration_mps2, xsens_force_step_mps2));
     if (sample.pressure_pa) {
         const double steps = std::clamp(std::round(*sample.pressure_pa / xsens_pressure_step_pa), 0.0, 4294967295.0);
-        frames.push_back(frame(id::pressure, static_cast<std::uint64_t>(steps), 4));
+        frames.push_back(xsens_frame(id::pressure, static_cast<std::uint64_t>(steps), 4));
     }
     return frames;
 }

@@ -13,12 +13,14 @@ std::vector<DecoderExample> obd2();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
+std::vector<DecoderExample> vectornav();
 std::vector<DecoderExample> witmotion();
 std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, epson_g370, layouts, obd2, radio, robomaster, trek1000, witmotion, xsens};
+constexpr std::array families{dw1000_can, epson_g370, layouts,   obd2,      radio,
+                              robomaster, trek1000,   vectornav, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
