@@ -23,12 +23,13 @@ namespace locus {
 
 class DeviceClock {
   public:
-    /// Crystals are sold with 20 to 100 ppm, resonators of small controllers with up to 5000: those are not followed
-    /// by the line but by beginning anew.
+    /// Crystals are sold with 20 to 100 ppm over temperature, two clocks differ by twice that. Ceramic resonators have
+    /// up to 5000 ppm (Murata CSTCE): those are not followed by the line, but by beginning anew.
     static constexpr double largest_drift = 500e-6;
     static constexpr std::size_t buckets = 32;
     static constexpr double bucket_s = 2; ///< the window is about a minute: temperature moves a crystal more slowly
-    /// Below the line by more: the counter jumped ahead. Three times what USB and its drivers hold back (16 ms).
+    /// Below the line by more: the counter jumped ahead. Three times what USB serial converters hold back (16 ms, the
+    /// latency timer of FTDI AN232B-04).
     static constexpr double jump_s = 0.05;
     /// Above the line by more than jump_s for so long: the counter fell back. After a stall of the host the last of
     /// what had waited is on time again, so packets that are all late do not come from a stall.

@@ -19,7 +19,13 @@ constexpr std::array<FieldLengths, 7> group_lengths{common_lengths,   time_lengt
                                                     attitude_lengths, ins_lengths,  gps_lengths};
 
 /// Fields of the common group that we take, by their bit.
-enum CommonField : unsigned { time_startup = 0, angular_rate = 5, acceleration = 8, uncorrected = 9, magnetic = 10 };
+enum CommonField : unsigned {
+    startup_field = 0,
+    rate_field = 5,
+    force_field = 8,
+    uncorrected_field = 9,
+    magnetic_field = 10
+};
 
 constexpr std::size_t groups_at = 1, masks_at = 2, crc_length = 2;
 
@@ -51,20 +57,20 @@ Vec3 read_floats(wire::Bytes bytes, std::size_t at) {
 /// Fields come in the order of their bits, so the corrected values are there before the uncorrected.
 void read_field(unsigned field, wire::Bytes bytes, std::size_t at, VectorNavData& data) {
     switch (field) {
-    case time_startup:
+    case startup_field:
         data.time_startup_ns = wire::little<std::uint64_t>(bytes, at);
         break;
-    case angular_rate:
+    case rate_field:
         data.rate_radps = read_floats(bytes, at);
         break;
-    case acceleration:
+    case force_field:
         data.acceleration_mps2 = read_floats(bytes, at);
         break;
-    case uncorrected:
+    case uncorrected_field:
         if (!data.acceleration_mps2) data.acceleration_mps2 = read_floats(bytes, at);
         if (!data.rate_radps) data.rate_radps = read_floats(bytes, at + 12);
         break;
-    case magnetic: // gauss, degrees Celsius, kilopascal
+    case magnetic_field: // gauss, degrees Celsius, kilopascal
         data.magnetic_gauss = read_floats(bytes, at);
         data.pressure_kpa = static_cast<double>(wire::little<float>(bytes, at + 16));
         break;
@@ -115,8 +121,8 @@ std::vector<std::uint8_t> encode(const VectorNavData& data) {
     wire::Writer body;
     body.little(std::uint8_t{1});
     body.little(static_cast<std::uint16_t>(
-        bit(data.time_startup_ns.has_value(), time_startup) | bit(data.rate_radps.has_value(), angular_rate) |
-        bit(data.acceleration_mps2.has_value(), acceleration) | bit(has_magnetic, magnetic)));
+        bit(data.time_startup_ns.has_value(), startup_field) | bit(data.rate_radps.has_value(), rate_field) |
+        bit(data.acceleration_mps2.has_value(), force_field) | bit(has_magnetic, magnetic_field)));
     if (data.time_startup_ns) body.little(*data.time_startup_ns);
     if (data.rate_radps) write_floats(body, *data.rate_radps);
     if (data.acceleration_mps2) write_floats(body, *data.acceleration_mps2);

@@ -181,9 +181,9 @@ TEST(DeviceClock, ALongSilenceIsBridgedOverManyWraps) {
     EXPECT_EQ(clock.beginnings(), 1u);
 }
 
-/// A rate in the settings that is not the device's: the times of reception are what is left.
+/// A rate in the settings that is not the device's, or a poor resonator: about the times of reception are left.
 TEST(DeviceClock, AWrongTickDoesNoGreatHarm) {
-    for (const double factor : {0.01, 0.5, 2.0, 100.0}) {
+    for (const double factor : {0.01, 0.5, 0.995, 1.005, 2.0, 100.0}) {
         DeviceClock clock{factor / 200, 16};
         const Errors errors = measure(clock, simulate({}, 60, 1, exponential_5_ms), 0);
         EXPECT_LT(errors.early_s, 0.6) << factor;

@@ -113,7 +113,7 @@ TEST(EpsonG370, RefusesDamageAndWhatHasOtherFields) {
 TEST(EpsonG370, TheCountTakesTheJitterOff) {
     Device device;
     for (unsigned i = 0; i < 1000; ++i)
-        device.send(encode(EpsonBurst{.count = static_cast<std::uint16_t>(65000 + i)}, {}),
+        device.send(encode(EpsonBurst{.count = static_cast<std::uint16_t>(65000 + i)}, EpsonSettings{}),
                     timestamp_from_s(1 + 0.008 * i + 0.001 * (i * 5 % 8)));
     ASSERT_EQ(device.sink.items.size(), 1000u);
     for (std::size_t i = 10; i < 1000; ++i)
@@ -142,7 +142,7 @@ template <class IsAlive>
 std::vector<Timestamp> commands_in_a_minute(Device& device, const IsAlive& is_alive) {
     std::vector<Timestamp> sent;
     for (Timestamp now = timestamp_from_s(100); now < timestamp_from_s(160); now += std::chrono::milliseconds{10}) {
-        if (is_alive(now)) device.send(encode({}, {}), now);
+        if (is_alive(now)) device.send(encode(EpsonBurst{}, EpsonSettings{}), now);
         if (device.decoder->request(now)) sent.push_back(now);
     }
     return sent;

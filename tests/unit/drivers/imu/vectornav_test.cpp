@@ -135,7 +135,7 @@ TEST(VectorNav, UncorrectedValuesCountWhereTheyAreAlone) {
 
 TEST(VectorNav, MagneticFieldAndPressureAreInPhysicalUnits) {
     Device device;
-    device.send(encode({{}, Vec3{}, Vec3{}, Vec3{0.25, 0, -0.5}, 101.325}));
+    device.send(encode(VectorNavData{{}, Vec3{}, Vec3{}, Vec3{0.25, 0, -0.5}, 101.325}));
     ASSERT_EQ(device.sink.items.size(), 2u);
     const auto& sample = std::get<ImuSample>(device.sink.items[0].observation);
     EXPECT_EQ(sample.magnetic_field_ut, (Vec3f{25, 0, -50}));
@@ -166,7 +166,7 @@ TEST(VectorNav, TheLongestMessageFits) {
 TEST(VectorNav, TimeSinceStartupTakesTheJitterOff) {
     Device device;
     for (unsigned i = 0; i < 1000; ++i)
-        device.send(encode({12'345'000'000'000 + 10'000'000ull * i, Vec3{}, Vec3{}, {}, {}}),
+        device.send(encode(VectorNavData{12'345'000'000'000 + 10'000'000ull * i, Vec3{}, Vec3{}, {}, {}}),
                     timestamp_from_s(1 + 0.01 * i + 0.001 * (i * 5 % 8)));
     ASSERT_EQ(device.sink.items.size(), 1000u);
     for (std::size_t i = 10; i < 1000; ++i)
@@ -175,8 +175,8 @@ TEST(VectorNav, TimeSinceStartupTakesTheJitterOff) {
 
 TEST(VectorNav, WhatIsNoNumberIsRefused) {
     Device device;
-    device.send(encode({{}, Vec3{std::nan(""), 0, 0}, Vec3{}, {}, {}}));
-    device.send(encode({{}, Vec3{}, Vec3{}, Vec3{std::nan(""), 0, 0}, std::nan("")}));
+    device.send(encode(VectorNavData{{}, Vec3{std::nan(""), 0, 0}, Vec3{}, {}, {}}));
+    device.send(encode(VectorNavData{{}, Vec3{}, Vec3{}, Vec3{std::nan(""), 0, 0}, std::nan("")}));
     EXPECT_EQ(device.sink.refusals, std::vector(2, Refusal::out_of_range)); // a rate, a pressure
     ASSERT_EQ(device.sink.items.size(), 1u);
     EXPECT_TRUE(std::isnan(device.sink.all<ImuSample>()[0].magnetic_field_ut[0]));

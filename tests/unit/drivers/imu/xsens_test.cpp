@@ -127,9 +127,9 @@ TEST(Xsens, AMessageWithoutBothHalvesIsNoSample) {
 
 TEST(Xsens, WhatIsNoNumberIsRefused) {
     Device device;
-    device.send(encode({{}, {}, {}, Vec3{std::nan(""), 0, 0}, Vec3{}}));
-    device.send(encode({{}, {}, {}, Vec3{}, Vec3{0, 1e9, 0}}));
-    device.send(encode({{}, {}, 4'000'000'000u, {}, {}}));
+    device.send(encode(XsensData{{}, {}, {}, Vec3{std::nan(""), 0, 0}, Vec3{}}));
+    device.send(encode(XsensData{{}, {}, {}, Vec3{}, Vec3{0, 1e9, 0}}));
+    device.send(encode(XsensData{{}, {}, 4'000'000'000u, {}, {}}));
     EXPECT_EQ(device.sink.refusals, std::vector(3, Refusal::out_of_range));
     EXPECT_TRUE(device.sink.items.empty());
 }
