@@ -6,6 +6,7 @@
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
 #include "drivers/uwb/dw1000_can.h"
+#include "drivers/uwb/pulson/pulson.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
 #include "drivers/vehicle/obd2.h"
@@ -39,6 +40,12 @@ constexpr std::array decoder_rows{
                option_table<layout::SerialLayoutSettings>(layout::serial_layout_options, layout::serial_layout_lists,
                                                           layout::check_serial_layout),
                layout::make_serial_layout},
+    DecoderRow{"pulson_usb", "PulsON P4xx radio over USB: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_usb},
+    DecoderRow{"pulson_uart", "PulsON P4xx radio over its 3.3 V serial port: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_uart},
 };
 }
 

@@ -28,6 +28,12 @@ struct CanSettings {
     bool adapter_stamps = true;
 };
 
+std::string check_settings(const void* settings) {
+    std::string error;
+    parse_can_filters(static_cast<const CanSettings*>(settings)->filter, error);
+    return error;
+}
+
 constexpr std::array options{
     required_option<&CanSettings::interface>("interface", "Network interface, e.g. can0 or vcan0."),
     option<&CanSettings::filter>("filter", "Ids that are wanted, e.g. 123,200:7F0,18FF1234 (id:mask, hex; 3 digits "
@@ -145,7 +151,7 @@ TransportRow can_row() {
             "SocketCAN interface, classic and FD frames.",
             Wire::can,
             false,
-            option_table<CanSettings>(options),
+            option_table<CanSettings>(options, {}, check_settings),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Can>(*static_cast<const CanSettings*>(settings));
             }};

@@ -9,13 +9,14 @@ namespace locus::examples {
 std::vector<DecoderExample> dw1000_can();
 std::vector<DecoderExample> layouts();
 std::vector<DecoderExample> obd2();
+std::vector<DecoderExample> pulson();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
 
 namespace {
 
-constexpr std::array families{dw1000_can, layouts, obd2, radio, robomaster, trek1000};
+constexpr std::array families{dw1000_can, layouts, obd2, pulson, radio, robomaster, trek1000};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
