@@ -7,6 +7,7 @@
 #include "drivers/radio/znp.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/pulson/pulson.h"
+#include "drivers/uwb/pulson/pulson_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
 #include "drivers/vehicle/obd2.h"
@@ -46,6 +47,11 @@ constexpr std::array decoder_rows{
     DecoderRow{"pulson_uart", "PulsON P4xx radio over its 3.3 V serial port: RCM and RangeNet ranges", Wire::bytes,
                option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
                uwb::pulson::make_uart},
+    DecoderRow{"pulson_udp", "PulsON P4xx radio over UDP: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_udp},
+    DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
 };
 }
 

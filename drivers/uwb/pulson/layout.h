@@ -67,7 +67,8 @@ class FieldReader {
     }
     template <class View, class Count>
     void one(const Tail<View, Count>& tail) {
-        const std::size_t left = message_.size() - std::min(at_, message_.size());
+        counts_fit_ = counts_fit_ && at_ <= message_.size();
+        const std::size_t left = counts_fit_ ? message_.size() - at_ : 0;
         counts_fit_ = counts_fit_ && left % tail.size == 0 && left / tail.size == tail.count;
         if (!counts_fit_) return;
         tail.bytes = message_.subspan(at_);

@@ -37,6 +37,31 @@ class Serial : public Decoder {
     std::vector<std::uint8_t> request_;
 };
 
+/// Over UDP there is no envelope: a packet is a message.
+class Datagrams : public Decoder {
+  public:
+    explicit Datagrams(const PulsonSettings& settings) : radio_{settings} {}
+
+    void decode(const Packet& packet, MeasurementSink& sink) override {
+        radio_.message(packet.data, packet.time, sink);
+    }
+
+    void reset() override { radio_.reset(); }
+
+    std::optional<Packet> request(Timestamp now) override {
+        auto message = radio_.request(now);
+        if (!message) return std::nullopt;
+        request_ = std::move(*message);
+        Packet packet;
+        packet.data = request_;
+        return packet;
+    }
+
+  private:
+    Radio radio_;
+    std::vector<std::uint8_t> request_;
+};
+
 template <class Format>
 std::unique_ptr<Decoder> make(const void* settings) {
     return std::make_unique<Serial<Format>>(*static_cast<const PulsonSettings*>(settings));
@@ -46,5 +71,8 @@ std::unique_ptr<Decoder> make(const void* settings) {
 
 std::unique_ptr<Decoder> make_usb(const void* settings) { return make<UsbFormat>(settings); }
 std::unique_ptr<Decoder> make_uart(const void* settings) { return make<UartFormat>(settings); }
+std::unique_ptr<Decoder> make_udp(const void* settings) {
+    return std::make_unique<Datagrams>(*static_cast<const PulsonSettings*>(settings));
+}
 
 } // namespace locus::uwb::pulson

@@ -1,5 +1,5 @@
-// Time Domain / Humatics PulsON P4xx radios on a serial line (protocols.md 3): USB without a checksum, UART with one.
-// The radio ranges by itself (RangeNet), or is told to by `responders`.
+// Time Domain / Humatics PulsON P4xx radios (protocols.md 3): on USB without a checksum, on a UART with one, and over
+// UDP one message a datagram. The radio ranges by itself (RangeNet), or is told to by `responders`.
 #pragma once
 
 #include "drivers/decoder.h"
@@ -9,5 +9,6 @@ namespace locus::uwb::pulson {
 
 std::unique_ptr<Decoder> make_usb(const void* settings);
 std::unique_ptr<Decoder> make_uart(const void* settings);
+std::unique_ptr<Decoder> make_udp(const void* settings);
 
 } // namespace locus::uwb::pulson

@@ -43,6 +43,7 @@ Radio::Radio(const PulsonSettings& settings)
     : settings_{settings}, requests_{settings.responders, duration_from_s(settings.request_timeout_s)} {}
 
 void Radio::message(wire::Bytes bytes, Timestamp time, MeasurementSink& sink) {
+    requests_.heard(time);
     const auto type = wire::big<std::uint16_t>(bytes, 0);
     switch (type) {
     case 0x0201:

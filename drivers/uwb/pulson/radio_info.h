@@ -32,6 +32,16 @@ struct Config {
     bool operator==(const Config&) const = default;
 };
 
+/// RCM_GET_STATUS_INFO_REQUEST.
+struct StatusRequest {
+    static constexpr std::array<std::uint16_t, 1> types{0xF001};
+    std::uint16_t type = types[0];
+    std::uint16_t message = 0;
+
+    static void layout(auto& fields, auto& m) { fields(m.type, m.message); }
+    bool operator==(const StatusRequest&) const = default;
+};
+
 struct Version {
     std::uint8_t major = 0;
     std::uint8_t minor = 0;

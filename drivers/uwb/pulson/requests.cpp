@@ -1,6 +1,7 @@
 #include "drivers/uwb/pulson/requests.h"
 
 #include "drivers/uwb/pulson/messages.h"
+#include "drivers/uwb/pulson/radio_info.h"
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +11,7 @@ namespace locus::uwb::pulson {
 namespace {
 
 constexpr std::size_t most_responders = 64;
+constexpr Duration silence = std::chrono::seconds{5};
 
 std::string_view trimmed(std::string_view word) {
     word.remove_prefix(std::min(word.find_first_not_of(' '), word.size()));
@@ -54,7 +56,8 @@ Requests::Requests(std::string_view responders, Duration timeout) : timeout_{tim
 }
 
 std::optional<std::vector<std::uint8_t>> Requests::next(Timestamp now) {
-    if (responders_.empty() || (waiting_ && now - asked_ < timeout_)) return std::nullopt;
+    if (responders_.empty()) return greeting(now);
+    if (waiting_ && now - asked_ < timeout_) return std::nullopt;
     RangeRequest request;
     request.message = ++message_;
     request.responder = responders_[turn_];
@@ -62,6 +65,12 @@ std::optional<std::vector<std::uint8_t>> Requests::next(Timestamp now) {
     waiting_ = true;
     asked_ = now;
     return encode(request);
+}
+
+std::optional<std::vector<std::uint8_t>> Requests::greeting(Timestamp now) {
+    if (last_sign_ && now - *last_sign_ < silence) return std::nullopt;
+    last_sign_ = now;
+    return encode(StatusRequest{.message = ++message_});
 }
 
 void Requests::answered(std::uint16_t message) {

@@ -1,5 +1,7 @@
 // Driving a radio: range requests to the responders of the settings, one after the other, one outstanding at a time as
-// the radio wants it (protocols.md 3.4).
+// the radio wants it (protocols.md 3.4). A radio that ranges by itself is left alone, but for a greeting when it is
+// silent: as delivered it tells nobody anything until a host has spoken to it (RN_INTERFACE_NONE in the vendor's
+// header).
 #pragma once
 
 #include "drivers/uwb/pulson/settings.h"
@@ -24,16 +26,25 @@ class Requests {
     /// no faster than the timeout allows.
     void answered(std::uint16_t message);
 
+    /// The radio said something.
+    void heard(Timestamp time) { last_sign_ = time; }
+
     /// The line was opened anew: the answer will not come.
-    void reset() { waiting_ = false; }
+    void reset() {
+        waiting_ = false;
+        last_sign_.reset();
+    }
 
   private:
+    std::optional<std::vector<std::uint8_t>> greeting(Timestamp now);
+
     std::vector<std::uint32_t> responders_;
     Duration timeout_;
     std::size_t turn_ = 0;
     std::uint16_t message_ = 0; ///< of the last request
     bool waiting_ = false;
     Timestamp asked_{};
+    std::optional<Timestamp> last_sign_; ///< of life: the radio's or, by a greeting, ours
 };
 
 } // namespace locus::uwb::pulson

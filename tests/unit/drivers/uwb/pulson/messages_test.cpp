@@ -101,6 +101,9 @@ TEST(PulsonMessages, TailsComeBackAndTheirCountIsNotBelieved) {
         expect_tail_comes_back<DataInfo>(&DataInfo::data, &DataInfo::data_size, 1, 30);
         expect_tail_comes_back<ScanInfo>(&ScanInfo::samples, &ScanInfo::sample_count, 4, 10);
     }));
+    const auto data_info = encode(DataInfo{});
+    for (std::size_t size = 0; size < data_info.size(); ++size)
+        EXPECT_FALSE(parse<DataInfo>(wire::Bytes{data_info}.first(size))) << size;
     EXPECT_FALSE(parse<FullScan>(std::vector<std::uint8_t>(1448)));
     FullScan scan{.source = 5};
     const std::vector<std::uint8_t> samples(350 * 4, 1);

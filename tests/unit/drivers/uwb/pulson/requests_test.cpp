@@ -4,6 +4,7 @@
 #include "drivers/uwb/pulson/envelope.h"
 #include "drivers/uwb/pulson/messages.h"
 #include "drivers/uwb/pulson/pulson.h"
+#include "drivers/uwb/pulson/radio_info.h"
 #include "tests/unit/drivers/collector.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,8 @@ struct Driven {
         return packet ? parse<RangeRequest>(UsbFormat::message(packet->data)) : std::nullopt;
     }
     template <class Message>
-    void hears(const Message& message) {
-        decoder->decode(test::bytes_packet(UsbFormat::wrap(encode(message)), start), sink);
+    void hears(const Message& message, Timestamp time = start) {
+        decoder->decode(test::bytes_packet(UsbFormat::wrap(encode(message)), time), sink);
     }
 };
 
@@ -73,6 +74,22 @@ TEST(PulsonRequests, ALineOpenedAnewIsAskedAtOnce) {
     ASSERT_TRUE(radio.asks(start));
     radio.decoder->reset();
     EXPECT_TRUE(radio.asks(start + 1ms));
+}
+
+TEST(PulsonRequests, ARadioThatRangesByItselfIsGreetedWhenItIsSilent) {
+    Driven radio{""};
+    const auto greeted = [&](Timestamp now) {
+        const auto packet = radio.decoder->request(now);
+        return packet && parse<StatusRequest>(UsbFormat::message(packet->data));
+    };
+    EXPECT_TRUE(greeted(start));
+    EXPECT_FALSE(greeted(start + 4999ms));
+    EXPECT_TRUE(greeted(start + 5s));
+    radio.hears(FullRange{}, start + 6s);
+    EXPECT_FALSE(greeted(start + 10s));
+    EXPECT_TRUE(greeted(start + 11s));
+    radio.decoder->reset();
+    EXPECT_TRUE(greeted(start + 12s)) << "the line was opened anew";
 }
 
 TEST(PulsonRequests, NobodyIsAskedUnlessTheSettingsSaySo) {
