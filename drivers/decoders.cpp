@@ -11,6 +11,8 @@
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
 #include "drivers/uwb/dw1000_can.h"
+#include "drivers/uwb/pulson/pulson.h"
+#include "drivers/uwb/pulson/pulson_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
 #include "drivers/vehicle/obd2.h"
@@ -56,6 +58,17 @@ constexpr std::array decoder_rows{
                option_table<imu::EpsonSettings>(imu::epson_options), imu::make_epson_g370},
     DecoderRow{"vectornav", "VectorNav VN-100, VN-200, VN-300 on a serial line: binary messages and $VNYMR",
                Wire::bytes, option_table<imu::VectorNavSettings>(imu::vectornav_options), imu::make_vectornav},
+    DecoderRow{"pulson_usb", "PulsON P4xx radio over USB: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_usb},
+    DecoderRow{"pulson_uart", "PulsON P4xx radio over its 3.3 V serial port: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_uart},
+    DecoderRow{"pulson_udp", "PulsON P4xx radio over UDP: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_udp},
+    DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
 };
 }
 

@@ -21,6 +21,7 @@ struct DecoderExample {
     std::vector<Chunk> chunks{};     ///< byte formats: each is whole in itself and gives at least one measurement
     std::vector<CanFrame> frames{};  ///< CAN formats: in this order, together they give measurements
     bool lines = false;              ///< a frame is a line of text: damage without a newline costs the line after it
+    bool datagrams = false;          ///< a packet is a message: it cannot be cut, nor be damaged but as a whole
     bool checksum = true;            ///< bytes chunks are guarded: of damage nothing comes but a refusal
     bool weak = false;               ///< by 8 bits only: of 256 damages one looks intact
     std::vector<CanFrame> rubbish{}; ///< CAN formats: frames that it must refuse

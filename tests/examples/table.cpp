@@ -10,6 +10,7 @@ std::vector<DecoderExample> dw1000_can();
 std::vector<DecoderExample> epson_g370();
 std::vector<DecoderExample> layouts();
 std::vector<DecoderExample> obd2();
+std::vector<DecoderExample> pulson();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
@@ -19,7 +20,7 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, epson_g370, layouts,   obd2,      radio,
+constexpr std::array families{dw1000_can, epson_g370, layouts,   obd2,      pulson, radio,
                               robomaster, trek1000,   vectornav, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {

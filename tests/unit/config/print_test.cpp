@@ -37,9 +37,9 @@ struct AnyValue {
     }
 };
 
-void fill(Options rows, void* settings) {
+void fill(Options rows, void* settings, bool others = true) {
     for (const auto& row : rows)
-        if (row.required || *rc::gen::arbitrary<bool>())
+        if (row.required || (others && *rc::gen::arbitrary<bool>()))
             row.set(settings, std::visit(AnyValue{row}, row.get(settings)));
 }
 
@@ -52,11 +52,14 @@ std::vector<std::size_t> up_to(int limit) {
     return indices;
 }
 
-/// Any values; the defaults where those do not fit together.
+/// Any values; where those do not fit together, the defaults of all that may be left out.
 std::shared_ptr<void> any_settings_of(const OptionTable& table) {
     auto settings = table.make();
     fill(table.rows, settings.get());
-    return table.check && !table.check(settings.get()).empty() ? table.make() : settings;
+    if (!table.check || table.check(settings.get()).empty()) return settings;
+    settings = table.make();
+    fill(table.rows, settings.get(), false);
+    return settings;
 }
 
 /// Some need more than rows (a layout's fields): those have tests of their own.
