@@ -1,6 +1,8 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
 #include "drivers/uwb/dw1000_can.h"
+#include "drivers/uwb/dwm1001_shell.h"
+#include "drivers/uwb/dwm1001_tlv.h"
 #include "drivers/uwb/nlink.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
@@ -19,6 +21,10 @@ constexpr std::array decoder_rows{
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
     DecoderRow{"nlink", "Nooploop LinkTrack: ranges and IMU in NLink frames", Wire::bytes,
                option_table<uwb::NlinkSettings>(uwb::nlink_options), uwb::make_nlink},
+    DecoderRow{"dwm1001_shell", "DWM1001 with PANS: distances that its shell prints (lec, les)", Wire::bytes,
+               option_table<uwb::Dwm1001ShellSettings>(uwb::dwm1001_shell_options), uwb::make_dwm1001_shell},
+    DecoderRow{"dwm1001_tlv", "DWM1001 with PANS: asked for its distances over UART", Wire::bytes,
+               option_table<uwb::Dwm1001TlvSettings>(uwb::dwm1001_tlv_options), uwb::make_dwm1001_tlv},
 };
 }
 

@@ -2,9 +2,8 @@
 // steps of the wire, which their names tell, so that what is written is what was read.
 #pragma once
 
+#include "drivers/uwb/list.h"
 #include "drivers/wire/frame_stream.h"
-
-#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstdint>
@@ -35,9 +34,6 @@ enum class Mark : std::uint8_t {
 
 /// Longest frame that is believed: the longest with fixed elements (255 in nodeframe2) needs 3,435 bytes.
 inline constexpr std::size_t max_frame = 4096;
-
-template <class T, std::size_t capacity>
-using List = boost::container::static_vector<T, capacity>;
 
 /// Who sends the frame, and when in its own clocks.
 struct Sender {

@@ -21,6 +21,7 @@ struct DecoderExample {
     std::vector<CanFrame> frames{};  ///< CAN formats: in this order, together they give measurements
     bool lines = false;              ///< a frame is a line of text: damage without a newline costs the line after it
     bool checksum = true;            ///< bytes chunks are guarded: of damage nothing comes but a refusal
+    Duration apart{};                ///< bytes formats that tell damage by silence: the time between chunks
     std::vector<CanFrame> rubbish{}; ///< CAN formats: frames that it must refuse
 
     /// With its default settings, unless `settings` gives others.

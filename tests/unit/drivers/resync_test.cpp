@@ -22,12 +22,15 @@ class Resync : public testing::TestWithParam<DecoderExample> {
         return lines;
     }
 
-    Lines decode(const std::vector<Chunk>& stream) const {
+    Lines decode(const std::vector<Chunk>& stream, Duration apart) const {
         const auto decoder = GetParam().make();
         test::Collector sink;
-        for (const Chunk& piece : stream) decoder->decode(test::bytes_packet(piece), sink);
+        Timestamp time{};
+        for (const Chunk& piece : stream) decoder->decode(test::bytes_packet(piece, time += apart), sink);
+        for (auto& item : sink.items) item.time = {};
         return said(sink);
     }
+    Lines decode(const std::vector<Chunk>& stream) const { return decode(stream, GetParam().apart); }
 
     /// The example's chunks, then 4 kB more, so that no false head waits for the end of what it claims.
     std::vector<Chunk> stream() const {
@@ -63,12 +66,12 @@ class Resync : public testing::TestWithParam<DecoderExample> {
 
 TEST_P(Resync, ItDoesNotMatterWhereTheStreamIsCut) {
     const Chunk all = joined(GetParam().chunks);
-    const Lines whole = decode({all});
+    const Lines whole = decode({all}, {});
     ASSERT_FALSE(whole.empty());
     const std::size_t until = std::min<std::size_t>(all.size(), 1000);
     for (std::size_t i = 1; i < until; ++i) {
         const auto cut = all.begin() + static_cast<std::ptrdiff_t>(i);
-        ASSERT_EQ(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}), whole) << "cut at byte " << i;
+        ASSERT_EQ(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}, {}), whole) << "cut at byte " << i;
     }
 }
 
