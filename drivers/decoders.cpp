@@ -3,7 +3,10 @@
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/dwm1001_shell.h"
 #include "drivers/uwb/dwm1001_tlv.h"
+#include "drivers/uwb/listener_json.h"
+#include "drivers/uwb/navlab.h"
 #include "drivers/uwb/nlink.h"
+#include "drivers/uwb/pdoa_json.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
 
@@ -25,6 +28,12 @@ constexpr std::array decoder_rows{
                option_table<uwb::Dwm1001ShellSettings>(uwb::dwm1001_shell_options), uwb::make_dwm1001_shell},
     DecoderRow{"dwm1001_tlv", "DWM1001 with PANS: asked for its distances over UART", Wire::bytes,
                option_table<uwb::Dwm1001TlvSettings>(uwb::dwm1001_tlv_options), uwb::make_dwm1001_tlv},
+    DecoderRow{"pdoa_json", "Decawave PDoA and TWR kits, Ai-Thinker BU03 and BU04: ranges as JSON lines", Wire::bytes,
+               option_table<uwb::PdoaSettings>(uwb::pdoa_options), uwb::make_pdoa_json},
+    DecoderRow{"navlab", "DW1000 nodes with Stanford NAV Lab's firmware: a line a range", Wire::bytes,
+               option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
+    DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
+               Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
 };
 }
 

@@ -8,13 +8,16 @@ namespace locus::examples {
 
 std::vector<DecoderExample> dw1000_can();
 std::vector<DecoderExample> dwm1001();
+std::vector<DecoderExample> listener_json();
+std::vector<DecoderExample> navlab();
 std::vector<DecoderExample> nlink();
+std::vector<DecoderExample> pdoa_json();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
 
 namespace {
 
-constexpr std::array families{dw1000_can, dwm1001, nlink, robomaster, trek1000};
+constexpr std::array families{dw1000_can, dwm1001, listener_json, navlab, nlink, pdoa_json, robomaster, trek1000};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
