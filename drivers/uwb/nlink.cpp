@@ -12,6 +12,9 @@ namespace {
 /// No radio receives 0 dBm: the unit had nothing to say.
 float power_dbm(std::uint8_t wire) { return wire == 0 ? unknown_f : -0.5f * static_cast<float>(wire); }
 
+/// Units that may move: a `node` has no fixed part.
+bool carried(Role role) { return role == Role::tag || role == Role::node; }
+
 template <class Numbers>
 bool all_finite(const Numbers& numbers) {
     return std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); });
@@ -37,7 +40,7 @@ class Give {
 
     void operator()(const RangesFrame& frame) const {
         for (const RangesFrame::Node& node : frame.nodes) pair(frame.sender, node);
-        if (frame.mark == Mark::node_frame2 && frame.sender.role != Role::anchor) imu(frame.sender, frame.motion);
+        if (frame.mark == Mark::node_frame2 && carried(frame.sender.role)) imu(frame.sender, frame.motion);
     }
 
     void operator()(const ConsoleFrame& frame) const {
@@ -71,12 +74,12 @@ class Give {
     }
 
     void pair(const Sender& sender, const RangesFrame::Node& node) const {
-        const bool from_anchor = sender.role == Role::anchor, to_anchor = node.role == Role::anchor;
         const double range_m = node.distance_mm * 1e-3;
-        if (from_anchor != to_anchor)
-            range(from_anchor ? sender.id : node.id, from_anchor ? node.id : sender.id, range_m,
-                  power_dbm(node.received_power), power_dbm(node.first_path_power));
-        else if (!from_anchor && measured(range_m))
+        if (sender.role == Role::anchor && carried(node.role))
+            range(sender.id, node.id, range_m, power_dbm(node.received_power), power_dbm(node.first_path_power));
+        else if (carried(sender.role) && node.role == Role::anchor)
+            range(node.id, sender.id, range_m, power_dbm(node.received_power), power_dbm(node.first_path_power));
+        else if (carried(sender.role) && carried(node.role) && measured(range_m))
             sink_.accept(time_, PeerRange{tag(sender.id), tag(node.id), range_m, unknown_f});
     }
 

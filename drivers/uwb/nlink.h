@@ -7,9 +7,9 @@
 //   nodeframe4    a Range from each tag to the anchors listed with it (the sender is a console)
 //   nodeframe0, 1 and 6, TOFSense       nothing that measures a tag
 //
-// In the frames of units that list others the roles tell which side is which: an anchor and another unit give a Range,
-// two that are no anchors a PeerRange (a `node` may be carried), two anchors nothing. The AOA frame's angle has no
-// measurement yet; it is in nlink::RangesFrame. A distance of zero was not measured. Units without an IMU send zeros.
+// In the frames of units that list others the roles tell which side is which: an anchor and a tag or node give a Range,
+// two tags or nodes a PeerRange, any other pair nothing. The AOA frame's angle has no measurement yet; it is in
+// nlink::RangesFrame. A distance of zero was not measured. Units without an IMU send zeros.
 #pragma once
 
 #include "drivers/decoder.h"
