@@ -64,6 +64,9 @@ class FrameStream {
 
     void reset() { size_ = 0, in_garbage_ = false; }
 
+    /// Bytes of a frame that is not whole yet.
+    std::size_t waiting() const { return size_; }
+
   private:
     /// A head that waits so long for its rest was none: no line sends half a frame and then pauses.
     static constexpr Duration silence = std::chrono::seconds{1};
@@ -103,6 +106,7 @@ class FrameStream {
     }
 
     void discard(std::size_t count) {
+        if (count == 0) return;
         std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(count),
                   buffer_.begin() + static_cast<std::ptrdiff_t>(size_), buffer_.begin());
         size_ -= count;

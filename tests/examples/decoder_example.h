@@ -24,6 +24,7 @@ struct DecoderExample {
     bool datagrams = false;          ///< a packet is a message: it cannot be cut, nor be damaged but as a whole
     bool checksum = true;            ///< bytes chunks are guarded: of damage nothing comes but a refusal
     bool weak = false;               ///< by 8 bits only: of 256 damages one looks intact
+    Duration apart{};                ///< bytes formats that tell damage by silence: the time between chunks
     std::vector<CanFrame> rubbish{}; ///< CAN formats: frames that it must refuse
 
     /// With its default settings, unless `settings` gives others.

@@ -7,9 +7,14 @@
 namespace locus::examples {
 
 std::vector<DecoderExample> dw1000_can();
+std::vector<DecoderExample> dwm1001();
 std::vector<DecoderExample> epson_g370();
 std::vector<DecoderExample> layouts();
+std::vector<DecoderExample> listener_json();
+std::vector<DecoderExample> navlab();
+std::vector<DecoderExample> nlink();
 std::vector<DecoderExample> obd2();
+std::vector<DecoderExample> pdoa_json();
 std::vector<DecoderExample> pulson();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
@@ -20,8 +25,8 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, epson_g370, layouts,   obd2,      pulson, radio,
-                              robomaster, trek1000,   vectornav, witmotion, xsens};
+constexpr std::array families{dw1000_can, dwm1001, epson_g370, layouts,    listener_json, navlab,    nlink,     obd2,
+                              pdoa_json,  pulson,  radio,      robomaster, trek1000,      vectornav, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

@@ -1,0 +1,87 @@
+// Asks a DWM1001 for its distances, and makes ranges of what it answers.
+#include "drivers/uwb/dwm1001_tlv.h"
+
+#include "drivers/uwb/limits.h"
+
+namespace locus::uwb {
+namespace dwm1001 {
+namespace {
+
+constexpr Duration longest_wait = std::chrono::milliseconds{200}; // for an answer (protocols.md 1(b))
+constexpr Duration longest_gap = longest_wait / 2;                // inside an answer, which takes 6 ms
+constexpr std::array<std::uint8_t, 2> loc_get{0x0C, 0x00};
+
+class Tlv : public Decoder {
+  public:
+    explicit Tlv(const Dwm1001TlvSettings& settings)
+        : settings_(settings),
+          period_(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(settings.poll_period_s))) {}
+
+    void decode(const Packet& packet, MeasurementSink& sink) override {
+        if (flush_ || packet.time - last_ > longest_gap) flush(sink);
+        last_ = packet.time;
+        frames_.feed(
+            packet, [&](const Frame& frame) { reply(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
+    }
+
+    std::optional<Packet> request(Timestamp now) override {
+        if (asked_ && now - *asked_ < (answered_ ? period_ : std::max(period_, longest_wait))) return std::nullopt;
+        flush_ = !answered_;
+        asked_ = now;
+        answered_ = false;
+        Packet packet;
+        packet.data = loc_get;
+        return packet;
+    }
+
+    void reset() override {
+        frames_.reset();
+        asked_.reset();
+    }
+
+  private:
+    Dwm1001TlvSettings settings_;
+    Duration period_;
+    FrameStream<TlvFormat> frames_;
+    std::optional<Timestamp> asked_;
+    Timestamp last_{};
+    bool answered_ = false;
+    bool flush_ = false;
+
+    /// Half an answer, whose rest will not come. A position without distances has no other end than this.
+    void flush(MeasurementSink& sink) {
+        flush_ = false;
+        if (frames_.waiting() == dwm1001::position_reply_size)
+            sink.frame();
+        else if (frames_.waiting() > 0)
+            sink.refuse(Refusal::malformed);
+        frames_.reset();
+    }
+
+    void reply(const Frame& frame, MeasurementSink& sink) {
+        answered_ = true;
+        const auto reply = parse_tlv_reply(frame.bytes);
+        if (!reply) return sink.refuse(Refusal::malformed);
+        sink.frame();
+        for (const TlvDistance& distance : reply->distances) range(reply->from, distance, frame.begun, sink);
+    }
+
+    void range(TlvReply::From from, const TlvDistance& distance, Timestamp time, MeasurementSink& sink) const {
+        const bool of_tag = from == TlvReply::From::tag;
+        Range range;
+        range.anchor = of_tag ? address(distance.address) : settings_.anchor;
+        range.tag = of_tag ? settings_.tag : address(distance.address);
+        range.range_m = distance.distance_mm * 1e-3;
+        if (range.range_m > farthest_dw1000_m) return sink.refuse(Refusal::out_of_range);
+        if (distance.distance_mm > 0) sink.accept(time, range); // zero: not measured
+    }
+};
+
+} // namespace
+} // namespace dwm1001
+
+std::unique_ptr<Decoder> make_dwm1001_tlv(const void* settings) {
+    return std::make_unique<dwm1001::Tlv>(*static_cast<const Dwm1001TlvSettings*>(settings));
+}
+
+} // namespace locus::uwb
