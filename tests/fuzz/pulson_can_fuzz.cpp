@@ -13,7 +13,8 @@ constexpr std::uint32_t extended = 0x80000000;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     locus::fuzz::Result result;
-    const auto decoder = locus::fuzz::decoder("pulson_can");
+    const locus::DecoderRow* const row = locus::find_decoder("pulson_can");
+    const auto decoder = row->make(row->options.make().get());
     locus::Packet packet;
     packet.wire = locus::Wire::can;
     for (std::span rest{data, size}; rest.size() >= 2; rest = rest.subspan(2 + packet.data.size())) {

@@ -21,7 +21,7 @@ void check(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace locus::uwb::pulson;
     const std::span message{data, size};
-    locus::fuzz::run_bytes("pulson_udp", message, std::max<std::size_t>(size, 1));
+    locus::fuzz::check("pulson_udp", message);
     check<RangeRequest>(message), check<Confirm>(message), check<FullRange>(message), check<SmallRange>(message);
     check<EchoedRange>(message), check<DataInfo>(message), check<ScanInfo>(message), check<FullScan>(message);
     check<FullNeighbors>(message), check<SmallNeighbors>(message), check<Config>(message), check<StatusInfo>(message);

@@ -3,7 +3,8 @@
 #include "tests/fuzz/decoder_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    for (const std::size_t chunk : {std::max<std::size_t>(size, 1), std::size_t{1}, std::size_t{7}})
-        locus::fuzz::run_bytes("pulson_usb", {data, size}, chunk);
+    for (const auto& device : locus::examples::all())
+        for (const std::size_t chunk : {std::max<std::size_t>(size, 1), std::size_t{1}, std::size_t{7}})
+            if (device.decoder == "pulson_usb") locus::fuzz::run_bytes(device, {data, size}, chunk);
     return 0;
 }

@@ -49,9 +49,11 @@ const Case cases[] = {
      R"(1:30: address is the address that stands for "none"; no device has it)"},
     {"ResponderThatIsNone",
      "inputs: [{name: a, transport: serial, path: p, decoder: pulson_usb, tag: 18, responders: '101,x'}]",
-     "1:10: responders has 'x' where a node id such as 101 is due"},
+     "1:10: input a: responders has 'x' where a node id such as 101 is due"},
     {"CanFilterThatIsNone", "inputs: [{name: a, transport: can, interface: can0, filter: 12, decoder: dw1000_can}]",
-     "1:10: the CAN filter '12' is not like 123, 200:7F0 or 18FF1234"},
+     "1:10: input a: the CAN filter '12' is not like 123, 200:7F0 or 18FF1234"},
+    {"HalfARemoteAddress", "inputs: [{name: a, transport: udp, port: 1, remote_port: 2, decoder: pulson_udp, tag: 18}]",
+     "1:10: input a: remote_address and remote_port go together"},
     {"SocketTooLong",
      "publish: {socket: /01234567890123456789012345678901234567890123456789012345678901234567890123456789"
      "01234567890123456789012345678}",
