@@ -3,6 +3,8 @@
 
 #include "drivers/uwb/limits.h"
 
+#include <algorithm>
+
 namespace locus::uwb {
 namespace dwm1001 {
 namespace {

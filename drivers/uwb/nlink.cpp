@@ -3,6 +3,7 @@
 
 #include "drivers/uwb/nlink_messages.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace locus::uwb {

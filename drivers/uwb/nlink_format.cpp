@@ -24,7 +24,7 @@ Look summed(wire::Bytes bytes, std::size_t length) {
 Look anchor_frame(wire::Bytes bytes) {
     constexpr std::size_t length = 896;
     if (bytes.size() < length) return Look::need(length);
-    if (bytes[length - 1] != 0xEE) return Look::none(Refusal::bad_checksum);
+    if (bytes[length - 1] != anchor_frame_end) return Look::none(Refusal::bad_checksum);
     return parse(bytes.first(length)) ? Look::frame(length) : Look::none(Refusal::malformed);
 }
 
@@ -44,10 +44,10 @@ Look node_frame(wire::Bytes bytes, Shape shape) {
 } // namespace
 
 Look Format::look(wire::Bytes bytes) {
-    if (bytes[0] != 0x55 && bytes[0] != 0x57) return Look::none(Refusal::garbage);
+    if (bytes[0] != link_track_sync && bytes[0] != tof_sense_sync) return Look::none(Refusal::garbage);
     if (bytes.size() < 2) return Look::need(2);
     const std::uint8_t mark = bytes[1];
-    if (bytes[0] == 0x57) return mark == 0 ? summed(bytes, 16) : Look::none(Refusal::garbage);
+    if (bytes[0] == tof_sense_sync) return mark == 0 ? summed(bytes, 16) : Look::none(Refusal::garbage);
     if (mark == 0) return anchor_frame(bytes);
     if (mark == 1) return summed(bytes, 128);
     if (mark - 2u >= shapes.size()) return Look::none(Refusal::unknown_type);

@@ -5,9 +5,6 @@
 namespace locus::uwb::nlink {
 namespace {
 
-constexpr std::uint8_t sync = 0x55;
-constexpr std::uint8_t tof_sense_sync = 0x57;
-constexpr std::uint8_t last_of_anchor_frame = 0xEE; // where the others have their sum
 constexpr std::uint8_t empty_slot = 0xFF;
 constexpr std::size_t envelope = 5; // sync, mark, length, sum
 
@@ -79,11 +76,11 @@ std::vector<std::uint8_t> with_sum(std::vector<std::uint8_t> frame) {
 
 std::vector<std::uint8_t> framed(Mark mark, const std::vector<std::uint8_t>& fields) {
     wire::Writer out;
-    out.little(sync).little(static_cast<std::uint8_t>(mark));
+    out.little(link_track_sync).little(static_cast<std::uint8_t>(mark));
     if (mark > Mark::tag_frame0) out.little(static_cast<std::uint16_t>(fields.size() + envelope));
     out.bytes(fields);
     if (mark != Mark::anchor_frame0) return with_sum(out.take());
-    return out.little(last_of_anchor_frame).take();
+    return out.little(anchor_frame_end).take();
 }
 
 struct MarkOf {
@@ -107,7 +104,7 @@ std::optional<Message> parse(std::span<const std::uint8_t> frame) {
     const auto mark = static_cast<Mark>(frame[1]);
     const auto fields = frame.first(frame.size() - 1).subspan(mark > Mark::tag_frame0 ? 4 : 2);
     if (frame[0] == tof_sense_sync) return read(TofSense{}, fields);
-    if (frame[0] != sync || mark > Mark::node_frame6) return std::nullopt;
+    if (frame[0] != link_track_sync || mark > Mark::node_frame6) return std::nullopt;
     return read(empty(mark), fields);
 }
 

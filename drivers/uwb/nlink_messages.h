@@ -32,6 +32,10 @@ enum class Mark : std::uint8_t {
     node_frame6
 };
 
+inline constexpr std::uint8_t link_track_sync = 0x55;
+inline constexpr std::uint8_t tof_sense_sync = 0x57;
+inline constexpr std::uint8_t anchor_frame_end = 0xEE; ///< where other frames have their sum
+
 /// Longest frame that is believed: the longest with fixed elements (255 in nodeframe2) needs 3,435 bytes.
 inline constexpr std::size_t max_frame = 4096;
 

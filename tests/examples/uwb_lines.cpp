@@ -19,11 +19,15 @@ std::vector<DecoderExample> lines(std::string_view decoder, Report (*report)(uns
 uwb::ListenerReport listened(unsigned i) {
     namespace frames = uwb::ieee802154;
     uwb::ListenerReport report{959949481290u + i, 32240936, -84.0f, -85.5f, {}};
-    const auto frame =
-        i % 2 == 0
-            ? encode(frames::Blink{static_cast<std::uint8_t>(i), 0x2040BFC210001CF0})
-            : encode(frames::ClockCalibration{
-                  static_cast<std::uint8_t>(i), 0x0402C186CFB20492, 0x0492, 0x400000000, 0x07499137C050u + i, 0, 4, {}});
+    const auto frame = i % 2 == 0 ? encode(frames::Blink{static_cast<std::uint8_t>(i), 0x2040BFC210001CF0})
+                                  : encode(frames::ClockCalibration{static_cast<std::uint8_t>(i),
+                                                                    0x0402C186CFB20492,
+                                                                    0x0492,
+                                                                    0x400000000,
+                                                                    0x07499137C050u + i,
+                                                                    0,
+                                                                    4,
+                                                                    {}});
     report.frame.assign(frame.begin(), frame.end());
     return report;
 }
