@@ -1,5 +1,6 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/gnss/ubx.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
@@ -16,6 +17,8 @@ constexpr std::array decoder_rows{
                option_table<uwb::Dw1000CanSettings>(uwb::dw1000_can_options), uwb::make_dw1000_can},
     DecoderRow{"robomaster_can", "DJI RoboMaster UWB tag module: six ranges over CAN", Wire::can,
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
+    DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,
+               option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
 };
 }
 
