@@ -1,5 +1,6 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/gnss/nmea.h"
 #include "drivers/gnss/ubx.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/robomaster_can.h"
@@ -19,6 +20,8 @@ constexpr std::array decoder_rows{
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
     DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,
                option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
+    DecoderRow{"nmea", "GNSS receivers that talk NMEA 0183: one fix from GGA, RMC or VTG, and GST", Wire::bytes,
+               option_table<gnss::NmeaSettings>(gnss::nmea_options), gnss::make_nmea},
 };
 }
 

@@ -7,13 +7,14 @@
 namespace locus::examples {
 
 std::vector<DecoderExample> dw1000_can();
+std::vector<DecoderExample> nmea();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
 std::vector<DecoderExample> ubx();
 
 namespace {
 
-constexpr std::array families{dw1000_can, robomaster, trek1000, ubx};
+constexpr std::array families{dw1000_can, nmea, robomaster, trek1000, ubx};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
