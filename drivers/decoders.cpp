@@ -10,6 +10,8 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/gnss/nmea.h"
+#include "drivers/gnss/ubx.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/pulson/pulson.h"
 #include "drivers/uwb/pulson/pulson_can.h"
@@ -87,6 +89,10 @@ constexpr std::array decoder_rows{
                option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
     DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
                Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
+    DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,
+               option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
+    DecoderRow{"nmea", "GNSS receivers that talk NMEA 0183: one fix from GGA, RMC or VTG, and GST", Wire::bytes,
+               option_table<gnss::NmeaSettings>(gnss::nmea_options), gnss::make_nmea},
 };
 }
 

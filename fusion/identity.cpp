@@ -17,7 +17,10 @@ Deliveries of_two_anchors(Tag tag, Address anchor, Address other) {
 }
 
 /// Satellites of all constellations in one number space.
-Address satellite_address(const GnssRaw& raw) { return address(raw.constellation * 256u + raw.satellite); }
+template <class Sample>
+Address satellite_address(const Sample& sample) {
+    return address(sample.constellation * 256u + sample.satellite);
+}
 
 struct WhomItConcerns {
     std::uint16_t input;
@@ -43,6 +46,9 @@ struct WhomItConcerns {
         const bool heard_at_anchor = site.find_anchor(o.receiver) != nullptr;
         return heard_at_anchor ? one(o.transmitter, SourceKind::beacon, o.receiver)
                                : one(o.receiver, SourceKind::beacon, o.transmitter);
+    }
+    Deliveries operator()(const GnssNavigation& o) const {
+        return one(o.tag, SourceKind::satellite, satellite_address(o));
     }
 };
 
@@ -73,6 +79,7 @@ struct NumbersAreFinite {
     bool operator()(const WheelSpeed& o) const { return std::isfinite(o.speed_mps); }
     bool operator()(const Pressure& o) const { return std::isfinite(o.pressure_pa); }
     bool operator()(const SignalStrength& o) const { return std::isfinite(o.rssi_dbm); }
+    bool operator()(const GnssNavigation&) const { return true; }
 };
 
 struct ShownValue {

@@ -102,6 +102,12 @@ struct VisualOdometry {
     std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
 };
 
+/// What GnssFix::fix_type says: the numbers of u-blox, and after them the finer ones that receivers tell.
+namespace gnss_fix_type {
+inline constexpr std::uint8_t none = 0, dead_reckoning = 1, flat = 2, full = 3, with_dead_reckoning = 4;
+inline constexpr std::uint8_t differential = 6, carrier_float = 7, carrier_fixed = 8;
+} // namespace gnss_fix_type
+
 struct GnssFix {
     Address tag = no_address;
     double latitude_deg = 0;
@@ -115,21 +121,40 @@ struct GnssFix {
     std::uint8_t satellites = 0;
 };
 
+/// Numbers of u-blox (gnssId), which every GNSS decoder uses.
+namespace constellation {
+inline constexpr std::uint8_t gps = 0, sbas = 1, galileo = 2, beidou = 3, qzss = 5, glonass = 6;
+}
+
 /// One signal of one satellite. Receiver time is GPS week and seconds.
 struct GnssRaw {
     Address tag = no_address;
     double receiver_time_s_in_gps_week = 0;
     double pseudorange_m = 0;
-    double carrier_cycles = 0;
-    double doppler_hz = 0;
+    double carrier_cycles = 0; ///< 0: none that can be used
+    double doppler_hz = 0;     ///< positive: approaching
     float sigma_pseudorange_m = unknown_f;
     float carrier_to_noise_dbhz = unknown_f;
-    float lock_s = 0;
+    float lock_s = 0; ///< the carrier is unbroken since; it fell: a slip
     std::uint16_t gps_week = 0;
+    std::uint8_t constellation = 0;
+    std::uint8_t satellite = 0;
+    std::uint8_t signal = 0;       ///< sigId of u-blox
+    std::uint8_t glonass_slot = 0; ///< frequency number + 7
+};
+
+/// One subframe, page or string that a satellite broadcast, in words as u-blox packs them: GPS, QZSS and BeiDou 30 bits
+/// low in each, Galileo pages and GLONASS strings from the highest bit of the first word on.
+struct GnssNavigation {
+    static constexpr std::size_t max_words = 16;
+
+    Address tag = no_address;
     std::uint8_t constellation = 0;
     std::uint8_t satellite = 0;
     std::uint8_t signal = 0;
     std::uint8_t glonass_slot = 0;
+    std::uint8_t word_count = 0; ///< as the device says: not to be trusted beyond max_words
+    std::array<std::uint32_t, max_words> words{};
 };
 
 struct WheelSpeed {
@@ -154,14 +179,15 @@ struct SignalStrength {
     std::uint8_t channel = 0;
 };
 
-using Observation = std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint,
-                                 VisualOdometry, GnssFix, GnssRaw, WheelSpeed, Pressure, SignalStrength>;
+using Observation =
+    std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
+                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
-    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC", "PEER_RANGE",
-    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",   "GNSS_RAW",
-    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH"};
+    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC",     "PEER_RANGE",
+    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",       "GNSS_RAW",
+    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH", "GNSS_NAVIGATION"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

@@ -144,4 +144,15 @@ void visit_fields(Visitor& visit, Kind& strength) {
     visit.must("channel", strength.channel);
 }
 
+template <class Visitor, Of<GnssNavigation> Kind>
+void visit_fields(Visitor& visit, Kind& navigation) {
+    visit.must("tag", navigation.tag);
+    visit.must("constellation", navigation.constellation);
+    visit.must("satellite", navigation.satellite);
+    visit.must("signal", navigation.signal);
+    visit.must("glonass_slot", navigation.glonass_slot);
+    visit.must("word_count", navigation.word_count);
+    visit.must("words", navigation.words);
+}
+
 } // namespace locus

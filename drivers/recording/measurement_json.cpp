@@ -42,7 +42,7 @@ class Writer {
     }
     template <class T, std::size_t Size>
     static bool writable(const std::array<T, Size>& values) {
-        return std::all_of(values.begin(), values.end(), [](T value) { return std::isfinite(value); });
+        return std::all_of(values.begin(), values.end(), [](T value) { return writable(value); });
     }
 
     template <class Number>
@@ -157,7 +157,8 @@ class Reader {
     void read(const JsonField& field, std::array<T, Size>& values) {
         bool good = field.shape == JsonField::Shape::list && field.values.size() == Size;
         for (std::size_t i = 0; good && i < Size; ++i) good = parse(field.values[i], values[i]);
-        if (!good) fail(field.name, "must be a list of " + std::to_string(Size) + " finite numbers");
+        const std::string_view numbers = std::is_integral_v<T> ? " whole numbers" : " finite numbers";
+        if (!good) fail(field.name, "must be a list of " + std::to_string(Size).append(numbers));
     }
 
     std::vector<JsonField>& fields_;

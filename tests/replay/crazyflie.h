@@ -4,11 +4,11 @@
 
 #include "fusion/measurement.h"
 #include "fusion/site.h"
+#include "tests/replay/data.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -33,12 +33,7 @@ struct Flight {
     std::vector<Truth> truth;
 };
 
-inline std::optional<std::filesystem::path> folder() {
-    const char* named = std::getenv("LOCUS_DATA");
-    const auto data = named ? std::filesystem::path(named) : std::filesystem::path(LOCUS_SOURCE_DIR) / "../shared/data";
-    const auto found = data / "util_uwb_tdoa";
-    return std::filesystem::exists(found) ? std::optional(found) : std::nullopt;
-}
+inline std::optional<std::filesystem::path> folder() { return test::recorded("util_uwb_tdoa"); }
 
 /// Rows of numbers under one line of titles.
 inline Rows read_csv(const std::filesystem::path& path) {

@@ -42,7 +42,7 @@ class RandomFields {
     static void fill(LineOfSight& value) { value = *rc::gen::element(LineOfSight::clear, LineOfSight::blocked); }
     template <class T, std::size_t Size>
     static void fill(std::array<T, Size>& values) {
-        for (T& value : values) value = any_finite<T>();
+        for (T& value : values) fill(value);
     }
 };
 

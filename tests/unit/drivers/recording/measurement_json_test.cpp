@@ -82,6 +82,15 @@ TEST(MeasurementJson, RefusesListsOfTheWrongLengthOrContent) {
                   R"("specific_force_mps2" must be a list of 3 finite numbers)");
 }
 
+TEST(MeasurementJson, RefusesWordsThatAreNone) {
+    const std::string head = R"({"t":1,"input":0,"sequence":0,"class":"GNSS_NAVIGATION","tag":0,"constellation":0,)"
+                             R"("satellite":5,"signal":0,"glonass_slot":0,"word_count":10,"words":)";
+    for (const char* list :
+         {"[1,2]", "[4294967296,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]", "[-1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]",
+          "[0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]", "\"22c0502e\""})
+        EXPECT_EQ(why_not(head + list + "}"), R"("words" must be a list of 16 whole numbers)");
+}
+
 TEST(MeasurementJson, RefusesAbsurdTimes) {
     for (const char* time : {"9000000000", "-9e9", "99999999999999999999", "1e300", "\"1\"", "[1]", "true"})
         EXPECT_EQ(why_not(std::string(R"({"t":)") + time + R"(,"class":"RANGE","input":0,"sequence":0})"),

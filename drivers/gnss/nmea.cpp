@@ -1,0 +1,98 @@
+#include "drivers/gnss/nmea.h"
+
+#include "drivers/gnss/nmea_epoch.h"
+#include "drivers/line_splitter.h"
+
+#include <cmath>
+#include <utility>
+
+namespace locus::gnss {
+namespace {
+
+using namespace nmea;
+
+class Nmea : public Decoder {
+  public:
+    explicit Nmea(const NmeaSettings& settings) : settings_{settings} {}
+
+    void decode(const Packet& packet, MeasurementSink& sink) override {
+        lines_.feed(
+            packet,
+            [&](std::string_view text, Timestamp complete) {
+                const auto bytes = static_cast<std::int64_t>(text.size() + 2); // with "\r\n"
+                line(text, complete - bytes * packet.byte_time, sink);
+            },
+            [&] { sink.refuse(Refusal::too_long); });
+    }
+
+    void reset() override {
+        lines_.reset();
+        epoch_ = {};
+        given_ = false;
+        kinds_before_ = wanted_ = 0;
+    }
+
+  private:
+    NmeaSettings settings_;
+    LineSplitter lines_;
+    Epoch epoch_;
+    bool given_ = false; ///< the fix of this moment went out
+    unsigned kinds_before_ = 0;
+    unsigned wanted_ = 0; ///< kinds of sentence that the two moments before had: one lost sentence is still waited for
+
+    void line(std::string_view text, Timestamp begun, MeasurementSink& sink) {
+        const auto parsed = parse_sentence(text, settings_.need_checksum);
+        if (const auto* refusal = std::get_if<Refusal>(&parsed)) return sink.refuse(*refusal);
+        const auto& sentence = std::get<Sentence>(parsed);
+        if (sentence.type == "GGA") return add(parse_gga(sentence), begun, sink);
+        if (sentence.type == "RMC") return add(parse_rmc(sentence), begun, sink);
+        if (sentence.type == "VTG") return add(parse_vtg(sentence), begun, sink);
+        if (sentence.type == "GST") return add(parse_gst(sentence), begun, sink);
+        if (sentence.type == "ZDA") return add(parse_zda(sentence), begun, sink);
+        sink.frame();
+    }
+
+    template <class Message>
+    void add(const std::optional<Message>& message, Timestamp begun, MeasurementSink& sink) {
+        if (!message) return sink.refuse(Refusal::malformed);
+        sink.frame();
+        if constexpr (requires { message->time_us; }) {
+            if (message->time_us == no_time) return; // a receiver that has not found the time has found no place
+            if (message->time_us != epoch_.time_us()) begin(message->time_us, begun, sink);
+        }
+        epoch_.add(*message);
+        if (wanted_ != 0 && (epoch_.kinds() & wanted_) == wanted_) give(sink);
+    }
+
+    void begin(std::int64_t time_us, Timestamp begun, MeasurementSink& sink) {
+        give(sink);
+        wanted_ = epoch_.kinds() | std::exchange(kinds_before_, epoch_.kinds());
+        epoch_ = Epoch{time_us, begun};
+        given_ = false;
+    }
+
+    void give(MeasurementSink& sink) {
+        if (given_) return;
+        const auto fix = epoch_.fix(settings_.tag, settings_.range_error_m);
+        given_ = fix.has_value();
+        if (!fix) return;
+        if (is_finite(*fix))
+            sink.accept(epoch_.begun(), *fix);
+        else
+            sink.refuse(Refusal::out_of_range);
+    }
+
+    /// NaN in a sigma says "not known"; an infinite one is nonsense.
+    static bool is_finite(const GnssFix& fix) {
+        return std::isfinite(fix.height_ellipsoid_m) && !std::isinf(fix.sigma_horizontal_m) &&
+               !std::isinf(fix.sigma_vertical_m);
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Decoder> make_nmea(const void* settings) {
+    return std::make_unique<Nmea>(*static_cast<const NmeaSettings*>(settings));
+}
+
+} // namespace locus::gnss

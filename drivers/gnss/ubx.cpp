@@ -1,0 +1,167 @@
+// UBX messages into measurements.
+#include "drivers/gnss/ubx.h"
+
+#include "drivers/gnss/ubx_messages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace locus::gnss {
+namespace {
+
+using namespace ubx;
+
+constexpr std::int32_t quarter_turn_1e7_deg = 900'000'000;
+constexpr std::uint8_t time_only = 5;
+constexpr double week_s = 604800;
+constexpr double farthest_m = 1e8; // twice the way to a geostationary satellite
+
+std::uint8_t fix_type(const NavPvt& pvt) {
+    if (pvt.carrier_solution() == 2) return gnss_fix_type::carrier_fixed;
+    if (pvt.carrier_solution() == 1) return gnss_fix_type::carrier_float;
+    if (pvt.differential() && pvt.fix_type == gnss_fix_type::full) return gnss_fix_type::differential;
+    return pvt.fix_type;
+}
+
+bool possible(const NavPvt& pvt) {
+    return std::abs(std::int64_t{pvt.latitude_1e7_deg}) <= quarter_turn_1e7_deg &&
+           std::abs(std::int64_t{pvt.longitude_1e7_deg}) <= 2 * std::int64_t{quarter_turn_1e7_deg};
+}
+
+float metres(std::int64_t millimetres) { return static_cast<float>(static_cast<double>(millimetres) * 1e-3); }
+
+GnssFix fix_of(const NavPvt& pvt, Address tag) {
+    GnssFix fix;
+    fix.tag = tag;
+    fix.latitude_deg = pvt.latitude_1e7_deg * 1e-7;
+    fix.longitude_deg = pvt.longitude_1e7_deg * 1e-7;
+    fix.height_ellipsoid_m = pvt.height_ellipsoid_mm * 1e-3;
+    const auto [north, east, down] = pvt.velocity_ned_mmps;
+    fix.velocity_enu_mps = {metres(east), metres(north), metres(-std::int64_t{down})};
+    fix.sigma_horizontal_m = metres(pvt.sigma_horizontal_mm);
+    fix.sigma_vertical_m = metres(pvt.sigma_vertical_mm);
+    fix.sigma_velocity_mps = metres(pvt.sigma_speed_mmps);
+    fix.fix_type = fix_type(pvt);
+    fix.satellites = pvt.satellites;
+    return fix;
+}
+
+bool possible(const RawEpoch& epoch) {
+    return epoch.receiver_time_s >= -1 && epoch.receiver_time_s <= week_s + 1; // its clock may be off by a little
+}
+
+bool possible(const RawSignal& signal) {
+    return signal.pseudorange_m > 0 && signal.pseudorange_m < farthest_m && std::isfinite(signal.carrier_cycles) &&
+           std::isfinite(signal.doppler_hz);
+}
+
+GnssRaw raw_of(const RawEpoch& epoch, const RawSignal& signal, Address tag) {
+    GnssRaw raw;
+    raw.tag = tag;
+    raw.receiver_time_s_in_gps_week = epoch.receiver_time_s;
+    raw.gps_week = epoch.gps_week;
+    raw.pseudorange_m = signal.pseudorange_m;
+    raw.carrier_cycles = signal.carrier_valid() ? signal.carrier_cycles : 0;
+    raw.doppler_hz = static_cast<double>(signal.doppler_hz);
+    raw.sigma_pseudorange_m = std::ldexp(0.01f, signal.sigma_pseudorange & 15);
+    raw.carrier_to_noise_dbhz = static_cast<float>(signal.carrier_to_noise_dbhz);
+    // When the receiver sets its clock, every carrier jumps: to who reads lock_s, a lock that begins anew.
+    raw.lock_s = epoch.clock_was_reset() || !signal.carrier_valid() ? 0 : metres(signal.lock_ms);
+    raw.constellation = signal.constellation;
+    raw.satellite = signal.satellite;
+    raw.signal = signal.signal;
+    raw.glonass_slot = signal.glonass_slot;
+    return raw;
+}
+
+GnssNavigation navigation_of(const Subframe& subframe, Address tag) {
+    GnssNavigation navigation;
+    navigation.tag = tag;
+    navigation.constellation = subframe.constellation;
+    navigation.satellite = subframe.satellite;
+    navigation.signal = subframe.signal;
+    navigation.glonass_slot = subframe.glonass_slot;
+    navigation.word_count = subframe.word_count;
+    std::copy_n(subframe.words.begin(), navigation.words.size(), navigation.words.begin());
+    return navigation;
+}
+
+class Ubx : public Decoder {
+  public:
+    explicit Ubx(const UbxSettings& settings) : tag_{settings.tag} {}
+
+    void decode(const Packet& packet, MeasurementSink& sink) override {
+        stream_.feed(
+            packet, [&](const Frame& frame) { message(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
+    }
+
+    void reset() override { stream_.reset(); }
+
+  private:
+    Address tag_;
+    FrameStream<ubx::Format> stream_;
+
+    void message(const Frame& frame, MeasurementSink& sink) const {
+        const wire::Bytes payload = payload_of(frame.bytes);
+        switch (message_id(frame.bytes)) {
+        case NavPvt::id:
+            return whole(parse_nav_pvt(payload), frame, sink);
+        case RawEpoch::id:
+            return whole(parse_raw_epoch(payload), frame, sink);
+        case Subframe::id:
+            return whole(parse_subframe(payload), frame, sink);
+        case SensorReport::id:
+            return whole(parse_sensor_report(payload), frame, sink);
+        default:
+            return sink.frame();
+        }
+    }
+
+    template <class Message>
+    void whole(const std::optional<Message>& message, const Frame& frame, MeasurementSink& sink) const {
+        if (!message) return sink.refuse(Refusal::malformed);
+        sink.frame();
+        give(*message, frame, sink);
+    }
+
+    void give(const NavPvt& pvt, const Frame& frame, MeasurementSink& sink) const {
+        if (!pvt.fix_ok() || pvt.position_invalid() || pvt.fix_type == 0 || pvt.fix_type >= time_only) return;
+        if (!possible(pvt)) return sink.refuse(Refusal::out_of_range);
+        sink.accept(frame.begun, fix_of(pvt, tag_));
+    }
+
+    void give(const RawEpoch& epoch, const Frame& frame, MeasurementSink& sink) const {
+        if (!possible(epoch)) return sink.refuse(Refusal::out_of_range);
+        for (std::size_t i = 0; i < epoch.signals; ++i) {
+            const RawSignal signal = parse_raw_signal(payload_of(frame.bytes), i);
+            if (!signal.pseudorange_valid()) continue;
+            if (possible(signal))
+                sink.accept(frame.begun, raw_of(epoch, signal, tag_));
+            else
+                sink.refuse(Refusal::out_of_range);
+        }
+    }
+
+    void give(const Subframe& subframe, const Frame& frame, MeasurementSink& sink) const {
+        if (subframe.word_count > GnssNavigation::max_words) return; // a kind that nothing here reads
+        sink.accept(frame.begun, navigation_of(subframe, tag_));
+    }
+
+    void give(const SensorReport& report, const Frame& frame, MeasurementSink& sink) const {
+        for (std::size_t i = 0; i < report.count(); ++i) {
+            if (report.type(i) != SensorReport::speed) continue;
+            WheelSpeed wheel;
+            wheel.tag = tag_;
+            wheel.speed_mps = report.value(i) * 1e-3;
+            sink.accept(frame.begun, wheel);
+        }
+    }
+};
+
+} // namespace
+
+std::unique_ptr<Decoder> make_ubx(const void* settings) {
+    return std::make_unique<Ubx>(*static_cast<const UbxSettings*>(settings));
+}
+
+} // namespace locus::gnss

@@ -1,0 +1,22 @@
+// LNAV, the navigation message of GPS L1 C/A and of QZSS (IS-GPS-200, section 20.3.3; IS-QZSS-PNT, section 4).
+#pragma once
+
+#include "fusion/gnss/ephemeris.h"
+#include "fusion/gnss/message_bits.h"
+
+#include <optional>
+#include <span>
+
+namespace locus::gnss {
+
+/// The 240 information bits of a subframe from its ten words of 30 bits; empty when the parity of a word (20.3.5.2) or
+/// the preamble is wrong.
+std::optional<MessageBits> lnav_subframe(std::span<const std::uint32_t> words) noexcept;
+
+/// 1 to 5.
+unsigned lnav_subframe_number(const MessageBits& subframe) noexcept;
+
+/// From subframes 1, 2 and 3; empty when they are not of one issue. `near_week`: the GPS week, give or take 500.
+std::optional<KeplerEphemeris> lnav_ephemeris(std::span<const MessageBits, 3> subframes, int near_week) noexcept;
+
+} // namespace locus::gnss
