@@ -24,7 +24,7 @@ void read_estimators(const YamlNode& node, std::vector<EstimatorSettings>& estim
     if (is_map) find_unknown_estimators(node, problems);
     for (const auto& row : estimator_table()) {
         const auto settings = row.options.make();
-        const BoundOptions table[]{{row.options.rows, settings.get()}};
+        const BoundOptions table[]{{row.options.rows, settings.get(), row.options.lists}};
         if (const YamlNode* own = is_map ? node.find(row.name) : nullptr) read_map(*own, {row.name}, table, problems);
         estimators.push_back({&row, settings});
     }
@@ -33,7 +33,8 @@ void read_estimators(const YamlNode& node, std::vector<EstimatorSettings>& estim
 std::string print_estimators(const std::vector<EstimatorSettings>& estimators) {
     std::string text;
     for (const auto& estimator : estimators) {
-        const ShownOptions table[]{{estimator.row->options.rows, estimator.settings.get()}};
+        const ShownOptions table[]{
+            {estimator.row->options.rows, estimator.settings.get(), estimator.row->options.lists}};
         text += fmt::format("  {}:\n{}", estimator.row->name, print_block(table, 4));
     }
     return text.empty() ? "estimators: {}\n" : "estimators:\n" + text;

@@ -30,8 +30,7 @@ void check_wire(const YamlNode& item, const InputSettings& input, Problems& prob
 
 /// What may stand in the map although its table was not found: the settings of every device it could have been.
 void append_settings_of(const auto& table, std::vector<std::string_view>& keys) {
-    for (const auto& row : table)
-        for (const OptionRow& option : row.options.rows) keys.push_back(option.name);
+    for (const auto& row : table) append_names({row.options.rows, nullptr, row.options.lists}, keys);
 }
 
 std::vector<std::string_view> possible_keys(const InputSettings& input) {
@@ -55,15 +54,36 @@ void find_rows(const YamlNode& item, InputSettings& input, Problems& problems) {
     if (input.decoder) input.decoder_settings = input.decoder->options.make();
 }
 
+BoundOptions bound(const OptionTable& table, const std::shared_ptr<void>& settings) {
+    return {table.rows, settings.get(), table.lists};
+}
+
+ShownOptions shown_options(const OptionTable& table, const std::shared_ptr<void>& settings) {
+    return {table.rows, settings.get(), table.lists};
+}
+
+/// What no row alone can tell; asked only when each is right in itself.
+void check_together(const YamlNode& item, const InputSettings& input, Problems& problems) {
+    const auto ask = [&](const auto* row, const std::shared_ptr<void>& settings) {
+        if (!row || !row->options.check) return;
+        if (const std::string wrong = row->options.check(settings.get()); !wrong.empty())
+            problems.add(item.mark, fmt::format("input {}: {}", shown(input.name), wrong));
+    };
+    ask(input.transport, input.transport_settings);
+    ask(input.decoder, input.decoder_settings);
+}
+
 } // namespace
 
 void read_input(const YamlNode& item, InputSettings& input, std::span<const BoundOptions> more, Problems& problems) {
     find_rows(item, input, problems);
     std::vector<BoundOptions> tables{{input_options, &input}};
-    if (input.transport) tables.push_back({input.transport->options.rows, input.transport_settings.get()});
-    if (input.decoder) tables.push_back({input.decoder->options.rows, input.decoder_settings.get()});
+    if (input.transport) tables.push_back(bound(input.transport->options, input.transport_settings));
+    if (input.decoder) tables.push_back(bound(input.decoder->options, input.decoder_settings));
     tables.insert(tables.end(), more.begin(), more.end());
+    const std::size_t problems_before = problems.size();
     read_map(item, {"input", possible_keys(input)}, tables, problems);
+    if (problems.size() == problems_before) check_together(item, input, problems);
     check_name(item, input, problems);
     check_wire(item, input, problems);
 }
@@ -84,8 +104,8 @@ std::string print_inputs(const std::vector<InputSettings>& inputs) {
     std::string text = "inputs:\n";
     for (const auto& input : inputs) {
         const ShownOptions tables[]{{input_options, &input},
-                                    {input.transport->options.rows, input.transport_settings.get()},
-                                    {input.decoder->options.rows, input.decoder_settings.get()}};
+                                    shown_options(input.transport->options, input.transport_settings),
+                                    shown_options(input.decoder->options, input.decoder_settings)};
         text += print_block(tables, 2, true);
     }
     return text;

@@ -10,6 +10,8 @@
 namespace locus::config {
 namespace {
 
+constexpr std::size_t max_option_list = 256;
+
 using Tables = std::span<const BoundOptions>;
 
 bool is_map(const YamlNode& node, const MapKind& kind, Problems& problems) {
@@ -20,8 +22,7 @@ bool is_map(const YamlNode& node, const MapKind& kind, Problems& problems) {
 
 std::vector<std::string_view> known_keys(const MapKind& kind, Tables tables) {
     std::vector<std::string_view> keys(kind.other_keys.begin(), kind.other_keys.end());
-    for (const auto& table : tables)
-        for (const auto& row : table.rows) keys.push_back(row.name);
+    for (const auto& table : tables) append_names(table, keys);
     return keys;
 }
 
@@ -41,12 +42,29 @@ void read_row(const YamlNode& map, const MapKind& kind, const OptionRow& row, vo
     if (const auto value = read_value(*node, row, row.get(settings), problems)) row.set(settings, *value);
 }
 
+void read_list(const YamlNode& map, const OptionList& list, void* settings, Problems& problems) {
+    const YamlNode* node = map.find(list.name);
+    if (!node) return;
+    const std::string item_name = fmt::format("an item of {}", list.name);
+    for (const auto& item : list_items(*node, max_option_list, problems)) {
+        const BoundOptions table[]{{list.rows, list.append(settings)}};
+        read_map(item, {item_name}, table, problems);
+    }
+}
+
 } // namespace
+
+void append_names(const BoundOptions& table, std::vector<std::string_view>& keys) {
+    for (const auto& row : table.rows) keys.push_back(row.name);
+    for (const auto& list : table.lists) keys.push_back(list.name);
+}
 
 bool read_known_keys(const YamlNode& node, const MapKind& kind, Tables tables, Problems& problems) {
     if (!is_map(node, kind, problems)) return false;
-    for (const auto& table : tables)
+    for (const auto& table : tables) {
         for (const auto& row : table.rows) read_row(node, kind, row, table.settings, problems);
+        for (const auto& list : table.lists) read_list(node, list, table.settings, problems);
+    }
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace locus::config {
 
@@ -13,7 +14,11 @@ namespace locus::config {
 struct BoundOptions {
     Options rows;
     void* settings;
+    OptionLists lists{};
 };
+
+/// Every key that the table knows, appended.
+void append_names(const BoundOptions& table, std::vector<std::string_view>& keys);
 
 /// What a map is called in messages, and the keys in it that the caller reads by itself.
 struct MapKind {

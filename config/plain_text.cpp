@@ -63,7 +63,15 @@ bool is_plain_text(std::string_view text, Problems& problems) {
     return true;
 }
 
-bool is_printable(std::string_view text) { return std::none_of(text.begin(), text.end(), control); }
+/// An escape can bring in what the file could not hold: yaml-cpp makes a lone byte 0x85 of "\\N".
+bool is_printable(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = utf8_length(text.substr(at));
+        if (length == 0 || control(text[at])) return false;
+        at += length;
+    }
+    return true;
+}
 
 std::string shown(std::string_view text) {
     constexpr std::size_t longest = 40;

@@ -12,6 +12,16 @@ std::string print_row(const OptionRow& row, const void* settings) {
     return value.empty() ? "" : fmt::format("{}: {}", row.name, value);
 }
 
+/// "signals:", then one line an item.
+std::string print_list(const OptionList& list, const void* settings, std::size_t indent) {
+    const std::size_t size = list.size(settings);
+    if (size == 0) return "";
+    std::string lines = fmt::format("{:{}}{}:\n", "", indent, list.name);
+    for (std::size_t i = 0; i < size; ++i)
+        lines += fmt::format("{:{}}- {}\n", "", indent + 2, print_flow({list.rows, list.item(settings, i)}));
+    return lines;
+}
+
 } // namespace
 
 std::string print_block(std::span<const ShownOptions> tables, std::size_t indent, bool list_item) {
@@ -22,6 +32,8 @@ std::string print_block(std::span<const ShownOptions> tables, std::size_t indent
                 const bool dash = list_item && lines.empty();
                 lines += fmt::format("{:{}}{}{}\n", "", indent, dash ? "- " : list_item ? "  " : "", line);
             }
+    for (const auto& table : tables)
+        for (const auto& list : table.lists) lines += print_list(list, table.settings, indent + 2 * list_item);
     return lines;
 }
 

@@ -12,6 +12,7 @@ namespace locus::config {
 struct ShownOptions {
     Options rows;
     const void* settings;
+    OptionLists lists{};
 };
 
 /// "name: value" lines, each behind `indent` blanks; the first behind "- " as well when they are a list's item.

@@ -23,6 +23,7 @@ class Problems {
     void add(Mark mark, std::string message);
 
     bool empty() const { return problems_.empty(); }
+    std::size_t size() const { return problems_.size(); }
 
     /// In the order of the file.
     std::vector<ConfigProblem> take();

@@ -68,12 +68,21 @@ std::string list_sections() {
                        reference_table({input_options, std::make_unique<InputSettings>().get()}));
 }
 
+/// A list's item has no struct of its own to show defaults of, so one is appended to the module's.
+std::string module_page(const OptionTable& table) {
+    const auto settings = table.make();
+    std::string text = reference_table({table.rows, settings.get()});
+    for (const auto& list : table.lists)
+        text += fmt::format("\n`{}`: {} A list; each item:\n{}", list.name, list.about,
+                            reference_table({list.rows, list.append(settings.get())}));
+    return text;
+}
+
 /// One heading and table for each row of the table of transports, decoders or estimators.
 std::string modules(std::string_view kind, const auto& rows) {
     std::string text;
     for (const auto& row : rows)
-        text += fmt::format("\n### {} `{}`\n\n{}\n{}", kind, row.name, row.about,
-                            reference_table({row.options.rows, row.options.make().get()}));
+        text += fmt::format("\n### {} `{}`\n\n{}\n{}", kind, row.name, row.about, module_page(row.options));
     return text;
 }
 

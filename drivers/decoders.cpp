@@ -1,5 +1,15 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/imu/epson_g370.h"
+#include "drivers/imu/vectornav.h"
+#include "drivers/imu/witmotion.h"
+#include "drivers/imu/xsens.h"
+#include "drivers/imu/xsens_can.h"
+#include "drivers/layout/can_layout.h"
+#include "drivers/layout/serial_layout.h"
+#include "drivers/radio/hm10.h"
+#include "drivers/radio/xbee.h"
+#include "drivers/radio/znp.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/dwm1001_shell.h"
 #include "drivers/uwb/dwm1001_tlv.h"
@@ -7,8 +17,11 @@
 #include "drivers/uwb/navlab.h"
 #include "drivers/uwb/nlink.h"
 #include "drivers/uwb/pdoa_json.h"
+#include "drivers/uwb/pulson/pulson.h"
+#include "drivers/uwb/pulson/pulson_can.h"
 #include "drivers/uwb/robomaster_can.h"
 #include "drivers/uwb/trek1000.h"
+#include "drivers/vehicle/obd2.h"
 
 #include <algorithm>
 #include <array>
@@ -34,6 +47,46 @@ constexpr std::array decoder_rows{
                option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
     DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
                Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
+    DecoderRow{"xbee", "Digi XBee in API mode: signal strength of other radios", Wire::bytes,
+               option_table<radio::XbeeSettings>(radio::xbee_options), radio::make_xbee},
+    DecoderRow{"znp", "TI Z-Stack network processor (CC2530, CC2652): link quality of other radios", Wire::bytes,
+               option_table<radio::ZnpSettings>(radio::znp_options), radio::make_znp},
+    DecoderRow{"hm10", "HM-10 and HM-17 BLE modules: iBeacons that they scan", Wire::bytes,
+               option_table<radio::Hm10Settings>(radio::hm10_options), radio::make_hm10},
+    DecoderRow{"obd2", "OBD-II over CAN: asks a vehicle for its speed and the barometric pressure", Wire::can,
+               option_table<vehicle::Obd2Settings>(vehicle::obd2_options), vehicle::make_obd2},
+    DecoderRow{"can_layout", "Any CAN frames, described here signal by signal as in a DBC file: vehicles, UWB",
+               Wire::can,
+               option_table<layout::CanLayoutSettings>(layout::can_layout_options, layout::can_layout_lists,
+                                                       layout::check_can_layout),
+               layout::make_can_layout},
+    DecoderRow{"serial_layout", "Any binary frames of a serial line, described here field by field", Wire::bytes,
+               option_table<layout::SerialLayoutSettings>(layout::serial_layout_options, layout::serial_layout_lists,
+                                                          layout::check_serial_layout),
+               layout::make_serial_layout},
+    DecoderRow{"witmotion", "WitMotion inertial modules (JY901, WT901, HWT...) on a serial line", Wire::bytes,
+               option_table<imu::WitMotionSettings>(imu::witmotion_options), imu::make_witmotion},
+    DecoderRow{"witmotion_can", "WitMotion inertial modules on CAN", Wire::can,
+               option_table<imu::WitMotionCanSettings>(imu::witmotion_can_options), imu::make_witmotion_can},
+    DecoderRow{"xsens", "Xsens MTi inertial sensors on a serial line or USB (Xbus, MTData2)", Wire::bytes,
+               option_table<imu::XsensSettings>(imu::xsens_options), imu::make_xsens},
+    DecoderRow{"xsens_can", "Xsens MTi inertial sensors on CAN, with the identifiers they come with", Wire::can,
+               option_table<imu::XsensCanSettings>(imu::xsens_can_options), imu::make_xsens_can},
+    DecoderRow{"epson_g370", "Epson M-G370 inertial sensors on their UART, 460800 baud: bursts", Wire::bytes,
+               option_table<imu::EpsonSettings>(imu::epson_options), imu::make_epson_g370},
+    DecoderRow{"vectornav", "VectorNav VN-100, VN-200, VN-300 on a serial line: binary messages and $VNYMR",
+               Wire::bytes, option_table<imu::VectorNavSettings>(imu::vectornav_options), imu::make_vectornav},
+    DecoderRow{"pulson_usb", "PulsON P4xx radio over USB: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_usb},
+    DecoderRow{"pulson_uart", "PulsON P4xx radio over its 3.3 V serial port: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_uart},
+    DecoderRow{"pulson_udp", "PulsON P4xx radio over UDP: RCM and RangeNet ranges", Wire::bytes,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
+               uwb::pulson::make_udp},
+    DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
+               option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
 };
 }
 

@@ -9,6 +9,7 @@
 #include "fusion/measurement.h"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -77,14 +78,12 @@ constexpr std::pair<double, double> limits_within(double minimum, double maximum
 } // namespace detail
 
 /// A row bound to a struct member of type bool, an integer, double, std::string, Address or Vec3 (limits: of each
-/// component).
-template <auto Member>
+/// component). `Settings` is what the table is for, where the member stands in a base of it.
+template <auto Member, class Settings = typename detail::MemberOf<decltype(Member)>::Struct>
 constexpr OptionRow option(std::string_view name, std::string_view unit, double minimum, double maximum,
                            std::string_view about, std::span<const std::string_view> choices = {},
                            bool required = false) {
-    using Traits = detail::MemberOf<decltype(Member)>;
-    using Struct = typename Traits::Struct;
-    using Type = typename Traits::Type;
+    using Type = typename detail::MemberOf<decltype(Member)>::Type;
     using Stored = typename detail::StoredAs<Type>::Type;
     constexpr auto within = detail::limits_within<Type>;
     return {name,
@@ -95,10 +94,10 @@ constexpr OptionRow option(std::string_view name, std::string_view unit, double 
             choices,
             required,
             [](const void* settings) -> OptionValue {
-                return static_cast<Stored>(static_cast<const Struct*>(settings)->*Member);
+                return static_cast<Stored>(static_cast<const Settings*>(settings)->*Member);
             },
             [](void* settings, const OptionValue& value) {
-                static_cast<Struct*>(settings)->*Member = static_cast<Type>(std::get<Stored>(value));
+                static_cast<Settings*>(settings)->*Member = static_cast<Type>(std::get<Stored>(value));
             }};
 }
 
@@ -114,17 +113,56 @@ constexpr OptionRow required_option(std::string_view name, std::string_view abou
     return option<Member>(name, "", -no_limit, no_limit, about, {}, true);
 }
 
+/// Two tables as one: what a family of devices has in common, then a device's own rows.
+template <std::size_t first, std::size_t second>
+constexpr std::array<OptionRow, first + second> joined(const std::array<OptionRow, first>& a,
+                                                       const std::array<OptionRow, second>& b) {
+    std::array<OptionRow, first + second> rows{};
+    std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), rows.begin()));
+    return rows;
+}
+
 using Options = std::span<const OptionRow>;
+
+/// A list of maps beside the rows, for what comes in any number: `signals: [{name: ..., start_bit: 7}, ...]`.
+struct OptionList {
+    std::string_view name;
+    std::string_view about;
+    Options rows; ///< of each item
+    void* (*append)(void* settings);
+    std::size_t (*size)(const void* settings);
+    const void* (*item)(const void* settings, std::size_t index);
+};
+
+/// A list bound to a struct member that is a std::vector of plain structs, whose rows `rows` are.
+template <auto Member>
+constexpr OptionList option_list(std::string_view name, std::string_view about, Options rows) {
+    using Struct = typename detail::MemberOf<decltype(Member)>::Struct;
+    return {name,
+            about,
+            rows,
+            [](void* settings) -> void* { return &(static_cast<Struct*>(settings)->*Member).emplace_back(); },
+            [](const void* settings) { return (static_cast<const Struct*>(settings)->*Member).size(); },
+            [](const void* settings, std::size_t index) -> const void* {
+                return &(static_cast<const Struct*>(settings)->*Member)[index];
+            }};
+}
+
+using OptionLists = std::span<const OptionList>;
 
 /// A settings struct whose type only its module knows; `make` gives one that holds the defaults.
 struct OptionTable {
     Options rows;
     std::shared_ptr<void> (*make)();
+    OptionLists lists{};
+    /// For what no row alone can tell: a sentence that says what does not fit together, empty when all is well.
+    std::string (*check)(const void* settings) = nullptr;
 };
 
 template <class Settings>
-constexpr OptionTable option_table(Options rows) {
-    return {rows, []() -> std::shared_ptr<void> { return std::make_shared<Settings>(); }};
+constexpr OptionTable option_table(Options rows, OptionLists lists = {},
+                                   std::string (*check)(const void* settings) = nullptr) {
+    return {rows, []() -> std::shared_ptr<void> { return std::make_shared<Settings>(); }, lists, check};
 }
 
 } // namespace locus

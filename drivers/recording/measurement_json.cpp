@@ -48,6 +48,8 @@ class Writer {
     template <class Number>
         requires std::is_arithmetic_v<Number>
     void append(Number value) {
+        if constexpr (std::is_floating_point_v<Number>)
+            if (value == 0 && std::signbit(value)) return void(line_ += "-0.0"); // JSON's "-0" reads as a whole 0
         std::array<char, 32> buffer; // the shortest text of a double that reads back to it has 24 characters
         line_.append(buffer.data(), std::to_chars(buffer.begin(), buffer.end(), value).ptr);
     }

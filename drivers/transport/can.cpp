@@ -6,7 +6,7 @@
 #include "drivers/transport/can_filter.h"
 #include "drivers/transport/can_health.h"
 #include "drivers/transport/can_socket.h"
-#include "drivers/transport/can_stamps.h"
+#include "drivers/transport/receive_stamps.h"
 #include "drivers/transport/rows.h"
 
 #include <linux/can/error.h>
@@ -28,6 +28,12 @@ struct CanSettings {
     bool adapter_stamps = true;
 };
 
+std::string check_settings(const void* settings) {
+    std::string error;
+    parse_can_filters(static_cast<const CanSettings*>(settings)->filter, error);
+    return error;
+}
+
 constexpr std::array options{
     required_option<&CanSettings::interface>("interface", "Network interface, e.g. can0 or vcan0."),
     option<&CanSettings::filter>("filter", "Ids that are wanted, e.g. 123,200:7F0,18FF1234 (id:mask, hex; 3 digits "
@@ -37,8 +43,6 @@ constexpr std::array options{
 };
 
 constexpr int receive_buffer_bytes = 1 << 20;
-/// A stamp further than that from the time of reading was spoilt by somebody setting the clock.
-constexpr Duration implausible_age = std::chrono::seconds{5};
 
 template <class Value>
 void set(int fd, int level, int option, const Value& value) {
@@ -69,7 +73,7 @@ class Can : public Transport {
         }
         health_.reset();
         adapter_clock_ = {};
-        dropped_here_ = 0;
+        drops_.reset();
         return true;
     }
 
@@ -89,7 +93,7 @@ class Can : public Transport {
 
     bool write(const Packet& packet) override { return socket_.send(packet); }
 
-    std::uint64_t kernel_dropped() const override { return dropped_; }
+    std::uint64_t kernel_dropped() const override { return drops_.total(); }
     std::uint64_t wire_errors() const override { return health_.error_frames(); }
     std::string_view trouble() const override { return health_.trouble(); }
     std::string_view last_error() const override { return error_; }
@@ -108,16 +112,10 @@ class Can : public Transport {
     }
 
     Timestamp stamp(const ControlData& control, Duration offset, Timestamp now) {
-        count_drops(control.dropped.value_or(dropped_here_));
-        Timestamp time = control.kernel_realtime ? Timestamp{*control.kernel_realtime - offset} : now;
-        if (time > now || time < now - implausible_age) time = now;
+        drops_.take(control);
+        Timestamp time = kernel_time(control, offset, now);
         if (control.adapter && settings_.adapter_stamps) time = adapter_clock_.to_monotonic(*control.adapter, time);
         return receive_stamp(time);
-    }
-
-    void count_drops(std::uint32_t dropped_here) {
-        dropped_ += dropped_here - dropped_here_;
-        dropped_here_ = dropped_here;
     }
 
     ReadStatus lost(int reason) {
@@ -133,8 +131,7 @@ class Can : public Transport {
     CanHealth health_;
     AdapterClock adapter_clock_;
     CanBatch batch_;
-    std::uint32_t dropped_here_ = 0; ///< as this socket counts
-    std::uint64_t dropped_ = 0;      ///< over all sockets
+    KernelDrops drops_;
     std::string error_;
 };
 
@@ -145,7 +142,7 @@ TransportRow can_row() {
             "SocketCAN interface, classic and FD frames.",
             Wire::can,
             false,
-            option_table<CanSettings>(options),
+            option_table<CanSettings>(options, {}, check_settings),
             [](const void* settings) -> std::unique_ptr<Transport> {
                 return std::make_unique<Can>(*static_cast<const CanSettings*>(settings));
             }};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "drivers/packet.h"
-#include "drivers/transport/can_stamps.h"
+#include "drivers/transport/receive_stamps.h"
 
 #include <linux/can.h>
 #include <sys/socket.h>

@@ -9,6 +9,7 @@ TransportRow serial_row();
 TransportRow pty_row();
 TransportRow fifo_row();
 TransportRow tcp_row();
+TransportRow udp_row();
 TransportRow can_row();
 TransportRow recording_row();
 

@@ -7,7 +7,7 @@
 namespace locus {
 
 std::span<const TransportRow> transport_table() {
-    static const std::array rows{serial_row(), pty_row(), fifo_row(), tcp_row(), can_row(), recording_row()};
+    static const std::array rows{serial_row(), pty_row(), fifo_row(), tcp_row(), udp_row(), can_row(), recording_row()};
     return rows;
 }
 

@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace {
 
@@ -21,11 +22,13 @@ struct CountingSink : MeasurementSink {
     void refuse(Refusal) override { ++refusals; }
 };
 
-std::vector<Packet> pieces(std::span<const std::uint8_t> bytes) {
+constexpr std::size_t whole = std::numeric_limits<std::size_t>::max();
+
+std::vector<Packet> pieces(std::span<const std::uint8_t> bytes, std::size_t longest = StreamTransport::max_packet) {
     std::vector<Packet> packets;
     for (; !bytes.empty(); bytes = bytes.subspan(packets.back().data.size())) {
         Packet packet;
-        packet.data = bytes.first(std::min(bytes.size(), StreamTransport::max_packet));
+        packet.data = bytes.first(std::min(bytes.size(), longest));
         packets.push_back(packet);
     }
     return packets;
@@ -34,7 +37,11 @@ std::vector<Packet> pieces(std::span<const std::uint8_t> bytes) {
 void run(benchmark::State& state, const examples::DecoderExample& example) {
     examples::Chunk bytes;
     for (const auto& chunk : example.chunks) bytes.insert(bytes.end(), chunk.begin(), chunk.end());
-    std::vector<Packet> packets = pieces(bytes);
+    std::vector<Packet> packets;
+    if (!example.datagrams)
+        packets = pieces(bytes);
+    else
+        for (const auto& chunk : example.chunks) packets.push_back(pieces(chunk, whole)[0]);
     for (const CanFrame& frame : example.frames) packets.push_back(frame.packet({}));
 
     const auto decoder = example.make();

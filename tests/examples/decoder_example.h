@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,9 @@ struct DecoderExample {
     std::vector<Chunk> chunks{};     ///< byte formats: each is whole in itself and gives at least one measurement
     std::vector<CanFrame> frames{};  ///< CAN formats: in this order, together they give measurements
     bool lines = false;              ///< a frame is a line of text: damage without a newline costs the line after it
+    bool datagrams = false;          ///< a packet is a message: it cannot be cut, nor be damaged but as a whole
     bool checksum = true;            ///< bytes chunks are guarded: of damage nothing comes but a refusal
+    bool weak = false;               ///< by 8 bits only: of 256 damages one looks intact
     Duration apart{};                ///< bytes formats that tell damage by silence: the time between chunks
     std::vector<CanFrame> rubbish{}; ///< CAN formats: frames that it must refuse
 
@@ -28,6 +31,9 @@ struct DecoderExample {
     std::unique_ptr<Decoder> make() const;
     std::shared_ptr<void> settings{};
 };
+
+/// What gtest prints of one.
+inline void PrintTo(const DecoderExample& example, std::ostream* out) { *out << example.decoder; }
 
 /// Every family's examples, in the order of the table in table.cpp.
 const std::vector<DecoderExample>& all();

@@ -8,16 +8,25 @@ namespace locus::examples {
 
 std::vector<DecoderExample> dw1000_can();
 std::vector<DecoderExample> dwm1001();
+std::vector<DecoderExample> epson_g370();
+std::vector<DecoderExample> layouts();
 std::vector<DecoderExample> listener_json();
 std::vector<DecoderExample> navlab();
 std::vector<DecoderExample> nlink();
+std::vector<DecoderExample> obd2();
 std::vector<DecoderExample> pdoa_json();
+std::vector<DecoderExample> pulson();
+std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
+std::vector<DecoderExample> vectornav();
+std::vector<DecoderExample> witmotion();
+std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, dwm1001, listener_json, navlab, nlink, pdoa_json, robomaster, trek1000};
+constexpr std::array families{dw1000_can, dwm1001, epson_g370, layouts,    listener_json, navlab,    nlink,     obd2,
+                              pdoa_json,  pulson,  radio,      robomaster, trek1000,      vectornav, witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

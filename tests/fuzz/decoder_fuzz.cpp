@@ -2,9 +2,6 @@
 #include "tests/fuzz/decoder_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    if (locus::find_decoder(LOCUS_DECODER)->wire == locus::Wire::can)
-        locus::fuzz::check_can(LOCUS_DECODER, {data, size});
-    else
-        locus::fuzz::check_bytes(LOCUS_DECODER, {data, size});
+    locus::fuzz::check(LOCUS_DECODER, {data, size});
     return 0;
 }

@@ -3,6 +3,7 @@
 
 #include "drivers/decoder.h"
 #include "drivers/recording/measurement_json.h"
+#include "tests/examples/decoder_example.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -31,15 +32,12 @@ struct Result : MeasurementSink {
     }
 };
 
-inline std::unique_ptr<Decoder> decoder(std::string_view name) {
-    const DecoderRow* row = find_decoder(name);
-    return row->make(row->options.make().get());
-}
+using examples::DecoderExample;
 
 /// Feeds the bytes in chunks of `size`.
-inline Result run_bytes(std::string_view name, std::span<const std::uint8_t> bytes, std::size_t size) {
+inline Result run_bytes(const DecoderExample& device, std::span<const std::uint8_t> bytes, std::size_t size) {
     Result result;
-    const auto fresh = decoder(name);
+    const auto fresh = device.make();
     while (!bytes.empty()) {
         Packet packet;
         packet.data = bytes.first(std::min(size, bytes.size()));
@@ -50,15 +48,15 @@ inline Result run_bytes(std::string_view name, std::span<const std::uint8_t> byt
 }
 
 /// Any stream: whole, byte by byte, and in chunks of seven gives the same.
-inline void check_bytes(std::string_view name, std::span<const std::uint8_t> bytes) {
-    const Result whole = run_bytes(name, bytes, std::max<std::size_t>(bytes.size(), 1));
-    if (!(run_bytes(name, bytes, 1) == whole) || !(run_bytes(name, bytes, 7) == whole)) std::abort();
+inline void check_bytes(const DecoderExample& device, std::span<const std::uint8_t> bytes) {
+    const Result whole = run_bytes(device, bytes, std::max<std::size_t>(bytes.size(), 1));
+    if (!(run_bytes(device, bytes, 1) == whole) || !(run_bytes(device, bytes, 7) == whole)) std::abort();
 }
 
 /// The input as a row of CAN frames: id (2 bytes), 4 bits of length, 4 bits of milliseconds since the one before, data.
-inline void check_can(std::string_view name, std::span<const std::uint8_t> bytes) {
+inline void check_can(const DecoderExample& device, std::span<const std::uint8_t> bytes) {
     Result result;
-    const auto fresh = decoder(name);
+    const auto fresh = device.make();
     Packet packet;
     packet.wire = Wire::can;
     while (bytes.size() >= 3) {
@@ -68,6 +66,14 @@ inline void check_can(std::string_view name, std::span<const std::uint8_t> bytes
         packet.data = bytes.subspan(3).first(std::min<std::size_t>(bytes[2] & 15, bytes.size() - 3));
         fresh->decode(packet, result);
         bytes = bytes.subspan(3 + packet.data.size());
+    }
+}
+
+/// Through every example of that name: they differ in their settings.
+inline void check(std::string_view name, std::span<const std::uint8_t> bytes) {
+    for (const DecoderExample& device : examples::all()) {
+        if (device.decoder != name) continue;
+        find_decoder(name)->wire == Wire::can ? check_can(device, bytes) : check_bytes(device, bytes);
     }
 }
 

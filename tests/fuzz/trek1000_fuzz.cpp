@@ -3,7 +3,7 @@
 #include "tests/fuzz/decoder_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    locus::fuzz::check_bytes("trek1000", {data, size});
+    locus::fuzz::check("trek1000", {data, size});
     const auto report = locus::uwb::parse_trek_report({reinterpret_cast<const char*>(data), size});
     if (!report) return 0;
     std::string line = locus::uwb::encode(*report);

@@ -39,4 +39,12 @@ main_pid() { systemctl show -p MainPID --value locusd; }
 
 # A minute, because the machine is emulated and may be shared; on a quiet one a second is enough.
 has_poses() { locus wait --target "$1" --better-than 1.0 --timeout 60; }
+pose_is_at() { # pose_is_at TARGET X Y Z: within 0.3 m
+  locus watch --json --target "$1" --count 1 | python3 -c '
+import json, math, sys
+pose = json.loads(sys.stdin.readline())
+error_m = math.dist(pose["position_site_m"], map(float, sys.argv[1:]))
+print("error", round(error_m, 3), "m")
+sys.exit(error_m > 0.3)' "${@:2}"
+}
 says() { echo "expected: $1"; return 1; }

@@ -19,7 +19,7 @@ def poses(path):
         pose = json.loads(line)
         for live_only in ("published", "dropped"):
             pose.pop(live_only, None)
-        found[round(pose["time"] * 1e6)] = pose
+        found[pose["target"], round(pose["time"] * 1e6)] = pose
     return found
 
 

@@ -37,9 +37,9 @@ struct AnyValue {
     }
 };
 
-void fill(Options rows, void* settings) {
+void fill(Options rows, void* settings, bool others = true) {
     for (const auto& row : rows)
-        if (row.required || *rc::gen::arbitrary<bool>())
+        if (row.required || (others && *rc::gen::arbitrary<bool>()))
             row.set(settings, std::visit(AnyValue{row}, row.get(settings)));
 }
 
@@ -52,19 +52,32 @@ std::vector<std::size_t> up_to(int limit) {
     return indices;
 }
 
+/// Any values; where those do not fit together, the defaults of all that may be left out.
+std::shared_ptr<void> any_settings_of(const OptionTable& table) {
+    auto settings = table.make();
+    fill(table.rows, settings.get());
+    if (!table.check || table.check(settings.get()).empty()) return settings;
+    settings = table.make();
+    fill(table.rows, settings.get(), false);
+    return settings;
+}
+
+/// Some need more than rows (a layout's fields): those have tests of their own.
+bool is_complete_by_default(const OptionTable& table) {
+    return !table.check || table.check(table.make().get()).empty();
+}
+
 InputSettings any_input(std::size_t index) {
     InputSettings input;
     input.name = any_name(index);
     input.transport = &transport_table()[*rc::gen::inRange<std::size_t>(0, transport_table().size())];
     std::vector<const DecoderRow*> fitting;
     for (const auto& row : decoder_table())
-        if (input.transport->carries(row.wire)) fitting.push_back(&row);
+        if (input.transport->carries(row.wire) && is_complete_by_default(row.options)) fitting.push_back(&row);
     RC_PRE(!fitting.empty());
     input.decoder = *rc::gen::elementOf(fitting);
-    input.transport_settings = input.transport->options.make();
-    input.decoder_settings = input.decoder->options.make();
-    fill(input.transport->options.rows, input.transport_settings.get());
-    fill(input.decoder->options.rows, input.decoder_settings.get());
+    input.transport_settings = any_settings_of(input.transport->options);
+    input.decoder_settings = any_settings_of(input.decoder->options);
     input.delay_s = *rc::gen::inRange(0, 1000) / 128.0;
     input.enabled = *rc::gen::arbitrary<bool>();
     return input;

@@ -47,6 +47,11 @@ const Case cases[] = {
     {"NearChoice", "log: {level: Warnin}", R"(1:14: level cannot be "Warnin"; did you mean "warning"?)"},
     {"AddressThatMeansNone", "targets: [{name: a, address: 0xFFFFFFFFFFFFFFFF}]",
      R"(1:30: address is the address that stands for "none"; no device has it)"},
+    {"ResponderThatIsNone",
+     "inputs: [{name: a, transport: serial, path: p, decoder: pulson_usb, tag: 18, responders: '101,x'}]",
+     "1:10: responders has 'x' where a node id such as 101 is due"},
+    {"CanFilterThatIsNone", "inputs: [{name: a, transport: can, interface: can0, filter: 12, decoder: dw1000_can}]",
+     "1:10: the CAN filter '12' is not like 123, 200:7F0 or 18FF1234"},
     {"SocketTooLong",
      "publish: {socket: /01234567890123456789012345678901234567890123456789012345678901234567890123456789"
      "01234567890123456789012345678}",

@@ -20,6 +20,10 @@ void for_each_module(const auto& table, const Visit& visit) {
     for (const auto& module : table) {
         const auto defaults = module.options.make();
         for (const auto& row : module.options.rows) visit(module.name, row, defaults.get());
+        for (const auto& list : module.options.lists) {
+            const void* const item = list.append(defaults.get());
+            for (const auto& row : list.rows) visit(list.name, row, item);
+        }
     }
 }
 

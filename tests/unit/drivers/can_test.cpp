@@ -3,7 +3,7 @@
 #include "drivers/transport/can_filter.h"
 #include "drivers/transport/can_frame.h"
 #include "drivers/transport/can_health.h"
-#include "drivers/transport/can_stamps.h"
+#include "drivers/transport/receive_stamps.h"
 #include "tests/unit/drivers/transport_fixture.h"
 
 #include <gmock/gmock.h>
@@ -221,6 +221,27 @@ TEST(Can, SaysWhatIsMissing) {
     const auto filtered = testing_transport::make_transport("can", {{"interface", "can0"}, {"filter", "12"}});
     EXPECT_FALSE(filtered->open());
     EXPECT_THAT(std::string{filtered->last_error()}, HasSubstr("filter"));
+}
+
+TEST(ReceiveStamps, TheKernelsStampUnlessItIsImpossible) {
+    const Timestamp now{100s};
+    const auto with = [](Duration realtime) { return ControlData{realtime, {}, {}}; };
+    EXPECT_EQ(kernel_time(with(1099s), 1000s, now), Timestamp{99s});
+    EXPECT_EQ(kernel_time(with(1101s), 1000s, now), now) << "in the future";
+    EXPECT_EQ(kernel_time(with(1094s), 1000s, now), now) << "somebody set the clock";
+    EXPECT_EQ(kernel_time({}, 1000s, now), now);
+}
+
+TEST(ReceiveStamps, DropsAreCountedOverSocketsAndWraps) {
+    const auto dropped = [](std::uint32_t count) { return ControlData{{}, {}, count}; };
+    KernelDrops drops;
+    drops.take(dropped(0xFFFFFFFF));
+    drops.take(dropped(1));
+    drops.take({});
+    EXPECT_EQ(drops.total(), 0x100000001u);
+    drops.reset();
+    drops.take(dropped(2));
+    EXPECT_EQ(drops.total(), 0x100000003u);
 }
 
 } // namespace

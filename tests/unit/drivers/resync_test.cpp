@@ -71,7 +71,7 @@ TEST_P(Resync, ItDoesNotMatterWhereTheStreamIsCut) {
     const std::size_t until = std::min<std::size_t>(all.size(), 1000);
     for (std::size_t i = 1; i < until; ++i) {
         const auto cut = all.begin() + static_cast<std::ptrdiff_t>(i);
-        ASSERT_EQ(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}, {}), whole) << "cut at byte " << i;
+        ASSERT_TRUE(decode({Chunk(all.begin(), cut), Chunk(cut, all.end())}, {}) == whole) << "cut at byte " << i;
     }
 }
 
@@ -85,8 +85,11 @@ TEST_P(Resync, GarbageBetweenFramesCostsNoFrame) {
             damaged.push_back(chunks[i]);
         }
         const Lines got = decode(damaged), wanted = decode(chunks);
-        if (GetParam().checksum)
-            EXPECT_EQ(got, wanted);
+        if (GetParam().weak)
+            EXPECT_NEAR(static_cast<double>(got.size()), static_cast<double>(wanted.size()),
+                        0.02 * static_cast<double>(wanted.size()));
+        else if (GetParam().checksum)
+            EXPECT_TRUE(got == wanted) << got.size() << " measurements, " << wanted.size() << " wanted";
         else
             EXPECT_TRUE(holds(got, decode(GetParam().chunks)));
     }
@@ -97,12 +100,14 @@ TEST_P(Resync, ALostByteCostsItsOwnFrameAlone) {
     const std::size_t hit = GetParam().chunks.size() / 2;
     auto others = intact;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(hit));
+    // Without a checksum the damaged frame is believed, with the first byte of the next one as its last.
+    if (!GetParam().checksum && !GetParam().lines) others.erase(others.begin() + static_cast<std::ptrdiff_t>(hit));
     const std::size_t cuttable = intact[hit].size() - GetParam().lines; // without its newline a line swallows the next
     for (std::size_t i = 0; i < cuttable; ++i) {
         auto damaged = intact;
         damaged[hit].erase(damaged[hit].begin() + static_cast<std::ptrdiff_t>(i));
         if (GetParam().checksum)
-            ASSERT_EQ(decode(damaged), decode(others)) << "without byte " << i;
+            ASSERT_TRUE(decode(damaged) == decode(others)) << "without byte " << i;
         else
             ASSERT_TRUE(holds(decode(damaged), decode(others))) << "without byte " << i;
     }
@@ -111,7 +116,7 @@ TEST_P(Resync, ALostByteCostsItsOwnFrameAlone) {
 std::vector<DecoderExample> of_bytes() {
     std::vector<DecoderExample> some;
     for (const DecoderExample& example : examples::all())
-        if (!example.chunks.empty()) some.push_back(example);
+        if (!example.chunks.empty() && !example.datagrams) some.push_back(example);
     return some;
 }
 

@@ -1,5 +1,6 @@
-// When a CAN frame was received, on CLOCK_MONOTONIC, from what the kernel says of it: its own stamp in wall-clock time,
-// and the adapter's stamp in a clock of the adapter's own (protocols.md 6.2).
+// When a frame or datagram was received, on CLOCK_MONOTONIC, from what the kernel says of it: its own stamp in
+// wall-clock time, and a CAN adapter's stamp in a clock of the adapter's own (protocols.md 6.2). And how many it
+// dropped.
 #pragma once
 
 #include "fusion/time.h"
@@ -12,7 +13,7 @@
 
 namespace locus {
 
-/// What came beside a frame. Zero stamps mean "none" in the kernel's answer and are left empty here.
+/// What came beside a frame or datagram. Zero stamps mean "none" in the kernel's answer and are left empty here.
 struct ControlData {
     std::optional<Duration> kernel_realtime;
     std::optional<Duration> adapter;
@@ -25,6 +26,27 @@ ControlData read_control(const msghdr& message);
 /// CLOCK_REALTIME minus CLOCK_MONOTONIC, sampled now. It jumps when somebody sets the clock; a stamp is therefore
 /// converted with a sample taken right after it was read.
 Duration realtime_offset();
+
+/// The kernel's stamp on CLOCK_MONOTONIC, or `now`, the time of reading, where there is none, or where somebody who set
+/// the clock in between spoilt it.
+Timestamp kernel_time(const ControlData& control, Duration realtime_offset, Timestamp now);
+
+/// The kernel counts drops of one socket in a number that wraps; here over all sockets that a transport opened.
+class KernelDrops {
+  public:
+    /// A new socket counts from zero.
+    void reset() { here_ = 0; }
+    void take(const ControlData& control) {
+        const std::uint32_t here = control.dropped.value_or(here_);
+        total_ += here - here_;
+        here_ = here;
+    }
+    std::uint64_t total() const { return total_; }
+
+  private:
+    std::uint32_t here_ = 0;
+    std::uint64_t total_ = 0;
+};
 
 /// The adapter's clock on ours. Adapter and kernel stamps of one frame differ by a constant, the adapter's epoch, and
 /// by the delay until the kernel saw the frame, which is never negative: so the least difference of the last seconds is

@@ -1,4 +1,4 @@
-#include "drivers/transport/can_stamps.h"
+#include "drivers/transport/receive_stamps.h"
 
 #include "drivers/clock.h"
 
@@ -11,6 +11,8 @@
 namespace locus {
 namespace {
 
+/// A stamp further than that from the time of reading was spoilt by somebody setting the clock.
+constexpr Duration implausible_age = std::chrono::seconds{5};
 constexpr Duration window = std::chrono::seconds{1};
 /// No frame waits that long in an adapter: the adapter's clock was restarted or has wrapped.
 constexpr Duration implausible_step = std::chrono::milliseconds{100};
@@ -51,6 +53,12 @@ Duration realtime_offset() {
     const Timestamp realtime = read_clock(CLOCK_REALTIME);
     const Timestamp after = monotonic_now();
     return realtime - (before + (after - before) / 2);
+}
+
+Timestamp kernel_time(const ControlData& control, Duration realtime_offset, Timestamp now) {
+    if (!control.kernel_realtime) return now;
+    const Timestamp time{*control.kernel_realtime - realtime_offset};
+    return time > now || time < now - implausible_age ? now : time;
 }
 
 Timestamp AdapterClock::to_monotonic(Duration adapter, Timestamp kernel) {
