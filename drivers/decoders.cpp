@@ -1,5 +1,7 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
+#include "drivers/gnss/nmea.h"
+#include "drivers/gnss/ubx.h"
 #include "drivers/imu/epson_g370.h"
 #include "drivers/imu/vectornav.h"
 #include "drivers/imu/witmotion.h"
@@ -10,8 +12,6 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
-#include "drivers/gnss/nmea.h"
-#include "drivers/gnss/ubx.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/dwm1001_shell.h"
 #include "drivers/uwb/dwm1001_tlv.h"
@@ -89,18 +89,6 @@ constexpr std::array decoder_rows{
                uwb::pulson::make_udp},
     DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
                option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
-    DecoderRow{"nlink", "Nooploop LinkTrack: ranges and IMU in NLink frames", Wire::bytes,
-               option_table<uwb::NlinkSettings>(uwb::nlink_options), uwb::make_nlink},
-    DecoderRow{"dwm1001_shell", "DWM1001 with PANS: distances that its shell prints (lec, les)", Wire::bytes,
-               option_table<uwb::Dwm1001ShellSettings>(uwb::dwm1001_shell_options), uwb::make_dwm1001_shell},
-    DecoderRow{"dwm1001_tlv", "DWM1001 with PANS: asked for its distances over UART", Wire::bytes,
-               option_table<uwb::Dwm1001TlvSettings>(uwb::dwm1001_tlv_options), uwb::make_dwm1001_tlv},
-    DecoderRow{"pdoa_json", "Decawave PDoA and TWR kits, Ai-Thinker BU03 and BU04: ranges as JSON lines", Wire::bytes,
-               option_table<uwb::PdoaSettings>(uwb::pdoa_options), uwb::make_pdoa_json},
-    DecoderRow{"navlab", "DW1000 nodes with Stanford NAV Lab's firmware: a line a range", Wire::bytes,
-               option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
-    DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
-               Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
     DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,
                option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
     DecoderRow{"nmea", "GNSS receivers that talk NMEA 0183: one fix from GGA, RMC or VTG, and GST", Wire::bytes,

@@ -11,7 +11,7 @@ void same_again(locus::wire::Bytes payload, const std::vector<std::uint8_t>& fra
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    locus::fuzz::check_bytes("ubx", {data, size});
+    locus::fuzz::check("ubx", {data, size});
     const locus::wire::Bytes payload{data, size};
     if (const auto pvt = parse_nav_pvt(payload)) same_again(payload, encode(*pvt));
     if (const auto subframe = parse_subframe(payload)) same_again(payload, encode(*subframe));
