@@ -93,7 +93,9 @@ TEST_F(RecordTest, LinesOfManyThreadsStayWhole) {
             tap.packet(packet);
         }
     };
-    { std::jthread a{record, "a"}, b{record, "b"}; }
+    {
+        std::jthread a{record, "a"}, b{record, "b"};
+    }
     ASSERT_TRUE(file.flush());
     const auto lines = lines_of(path("out.log"));
     EXPECT_EQ(lines.size(), 1001u);

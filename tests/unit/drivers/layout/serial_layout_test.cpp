@@ -27,9 +27,9 @@ test::Collector hear(const SerialLayoutSettings& settings, const examples::Chunk
 }
 
 /// REAL, protocols.md E-4c: a LinkTrack tag that hears four anchors.
-const auto nodeframe3 = examples::from_hex(
-    "55 05 32 00 02 01 f8 11 07 00 6f d0 6e 00 00 00 01 02 5a 13 04 01 00 22 0b 00 b5 9f 01 01 a3 17 00 b6 a0 01 02 88 1c "
-    "00 aa 9f 01 03 e6 14 00 b8 a0 9a");
+const auto nodeframe3 = examples::from_hex("55 05 32 00 02 01 f8 11 07 00 6f d0 6e 00 00 00 01 02 5a 13 04 01 00 22 0b "
+                                           "00 b5 9f 01 01 a3 17 00 b6 a0 01 02 88 1c "
+                                           "00 aa 9f 01 03 e6 14 00 b8 a0 9a");
 
 TEST(SerialLayout, ReadsADeviceItKnowsByDescriptionOnly) {
     const auto sink = hear(described(0), nodeframe3);
