@@ -5,8 +5,8 @@
 namespace locus::gnss {
 namespace {
 
-constexpr std::size_t words_per_subframe = 10;
-constexpr std::uint32_t preamble = 0b11100010010;
+constexpr std::size_t d1_words_per_subframe = 10;
+constexpr std::uint32_t d1_preamble = 0b11100010010;
 constexpr double seconds_per_subframe = 6;
 
 /// Remainder of 15 bits by x^4 + x + 1.
@@ -18,11 +18,11 @@ bool bch_good(std::uint32_t block) {
 
 /// The two blocks of a word, which u-blox hands over one after the other and not bit by bit in turn as they were sent:
 /// 11 bits and 11 bits of information, 4 and 4 of code.
-bool word_good(std::uint32_t word) {
+bool d1_word_good(std::uint32_t word) {
     return bch_good((word >> 19 & 0x7FF) << 4 | (word >> 4 & 15)) && bch_good((word >> 8 & 0x7FF) << 4 | (word & 15));
 }
 
-void read_clock(const MessageBits& bits, KeplerEphemeris& e) {
+void d1_read_clock(const MessageBits& bits, KeplerEphemeris& e) {
     e.health = static_cast<std::uint8_t>(bits.get(38, 1));
     e.issue_clock = static_cast<std::uint16_t>(bits.get(39, 5));
     e.accuracy = static_cast<std::uint8_t>(bits.get(44, 4));
@@ -34,7 +34,7 @@ void read_clock(const MessageBits& bits, KeplerEphemeris& e) {
     e.issue = static_cast<std::uint16_t>(bits.get(219, 5));
 }
 
-void read_orbit(const MessageBits& second, const MessageBits& third, KeplerEphemeris& e) {
+void d1_read_orbit(const MessageBits& second, const MessageBits& third, KeplerEphemeris& e) {
     e.mean_motion_difference = second.scaled_signed(38, 16, -43) * interface_pi;
     e.cuc = second.scaled_signed(54, 18, -31);
     e.mean_anomaly = second.scaled_signed(72, 32, -31) * interface_pi;
@@ -58,12 +58,12 @@ double sent_s(const MessageBits& subframe) { return subframe.get(18, 20); }
 } // namespace
 
 std::optional<MessageBits> d1_subframe(std::span<const std::uint32_t> words) noexcept {
-    if (words.size() != words_per_subframe || (words[0] >> 19 & 0x7FF) != preamble) return std::nullopt;
+    if (words.size() != d1_words_per_subframe || (words[0] >> 19 & 0x7FF) != d1_preamble) return std::nullopt;
     MessageBits bits;
     if (!bch_good(words[0] & 0x7FFF)) return std::nullopt; // of the first word only the second half is coded
     bits.append(words[0] >> 4, 26);
     for (const std::uint32_t word : words.subspan(1)) {
-        if (!word_good(word)) return std::nullopt;
+        if (!d1_word_good(word)) return std::nullopt;
         bits.append(word >> 8, 22);
     }
     return bits;
@@ -78,8 +78,8 @@ std::optional<KeplerEphemeris> d1_ephemeris(std::span<const MessageBits, 3> subf
         return std::nullopt;
     KeplerEphemeris e;
     e.constellation = constellation::beidou;
-    read_clock(subframes[0], e);
-    read_orbit(subframes[1], subframes[2], e);
+    d1_read_clock(subframes[0], e);
+    d1_read_orbit(subframes[1], subframes[2], e);
     e.week = week_of(e.toe_s, {static_cast<int>(subframes[0].get(48, 13)), first_s});
     return e;
 }
