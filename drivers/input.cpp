@@ -65,7 +65,7 @@ ReadStatus Input::read_until_lost(const std::stop_token& stop) {
 }
 
 /// What could not be written is not tried again: the decoder asks anew when no answer comes.
-void Input::ask_device() {
+void Input::ask_device() const {
     if (!parts_.decoder) return;
     if (const auto request = parts_.decoder->request(monotonic_now())) parts_.transport->write(*request);
 }

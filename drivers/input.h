@@ -62,7 +62,7 @@ class Input : private PacketSink, private MeasurementSink {
     bool open();
     ReadStatus read_until_lost(const std::stop_token& stop);
     void fail(InputEvent::Kind kind, std::string_view text);
-    void ask_device();
+    void ask_device() const;
     void copy_counters();
     void tell_trouble();
     void emit(InputEvent::Kind kind, std::string_view text) const;

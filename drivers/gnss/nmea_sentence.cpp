@@ -11,13 +11,12 @@ namespace {
 
 template <class Number>
 bool read_number(std::string_view text, Number& number, int base = 10) {
-    const char* const end = text.data() + text.size();
     std::from_chars_result result{};
     if constexpr (std::is_floating_point_v<Number>)
-        result = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+        result = std::from_chars(text.begin(), text.end(), number, std::chars_format::fixed);
     else
-        result = std::from_chars(text.data(), end, number, base);
-    return result.ec == std::errc{} && result.ptr == end;
+        result = std::from_chars(text.begin(), text.end(), number, base);
+    return result.ec == std::errc{} && result.ptr == text.end();
 }
 
 std::uint8_t xor_of(std::string_view text) {

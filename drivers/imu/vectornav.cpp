@@ -46,7 +46,7 @@ struct VectorNavFormat {
         const std::string_view text = text_of(bytes.first(std::min(bytes.size(), longest_vnymr)));
         if (text.substr(0, vnymr_head.size()) != vnymr_head.substr(0, text.size())) return Look::none(Refusal::garbage);
         const std::size_t end = text.find('\n');
-        if (end != text.npos)
+        if (end != std::string_view::npos)
             return parse_vnymr(line_of(bytes.first(end))) ? Look::frame(end + 1) : Look::none(Refusal::bad_checksum);
         return text.size() < longest_vnymr ? Look::need(text.size() + 1) : Look::none(Refusal::too_long);
     }

@@ -29,17 +29,21 @@ enum CommonField : unsigned {
 
 constexpr std::size_t groups_at = 1, masks_at = 2, crc_length = 2;
 
-/// Empty when the mask names a field that does not exist.
-constexpr std::optional<std::size_t> payload_length(FieldLengths lengths, unsigned mask) {
-    if (mask >> lengths.size() != 0) return std::nullopt;
+constexpr std::size_t length_of_fields(FieldLengths lengths, unsigned mask) {
     std::size_t sum = 0;
     for (std::size_t bit = 0; bit < lengths.size(); ++bit) sum += (mask >> bit & 1) * lengths[bit];
     return sum;
 }
 
+/// Empty when the mask names a field that does not exist.
+constexpr std::optional<std::size_t> payload_length(FieldLengths lengths, unsigned mask) {
+    if (mask >> lengths.size() != 0) return std::nullopt;
+    return length_of_fields(lengths, mask);
+}
+
 constexpr std::size_t longest_message() {
     std::size_t sum = masks_at + crc_length;
-    for (const FieldLengths lengths : group_lengths) sum += 2 + *payload_length(lengths, (1u << lengths.size()) - 1);
+    for (const FieldLengths lengths : group_lengths) sum += 2 + length_of_fields(lengths, (1u << lengths.size()) - 1);
     return sum;
 }
 static_assert(longest_message() <= longest_vectornav_message);

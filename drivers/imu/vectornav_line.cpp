@@ -28,9 +28,10 @@ bool read_number(std::string_view text, T& value, Base... base) {
 bool read_numbers(std::string_view text, std::span<double> numbers) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t comma = text.find(',');
-        if ((comma == text.npos) != (i + 1 == numbers.size()) || !read_number(text.substr(0, comma), numbers[i]))
+        if ((comma == std::string_view::npos) != (i + 1 == numbers.size()) ||
+            !read_number(text.substr(0, comma), numbers[i]))
             return false;
-        text.remove_prefix(comma == text.npos ? text.size() : comma + 1);
+        text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
     }
     return true;
 }
@@ -39,7 +40,7 @@ bool read_numbers(std::string_view text, std::span<double> numbers) {
 
 std::optional<VectorNavData> parse_vnymr(std::string_view line) {
     const std::size_t star = line.find('*');
-    if (!line.starts_with(vnymr) || star == line.npos) return std::nullopt;
+    if (!line.starts_with(vnymr) || star == std::string_view::npos) return std::nullopt;
     std::uint8_t checksum = 0;
     if (line.size() != star + 3 || !read_number(line.substr(star + 1), checksum, 16) ||
         checksum != xor_of(line.substr(1, star - 1)))

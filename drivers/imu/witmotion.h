@@ -13,12 +13,12 @@ namespace locus::imu {
 struct WitFrame {
     enum Type : std::uint8_t {
         time = 0x50,
-        acceleration,
-        rate,
-        angle,
-        field,
-        port,
-        pressure,
+        acceleration = 0x51,
+        rate = 0x52,
+        angle = 0x53,
+        field = 0x54,
+        port = 0x55,
+        pressure = 0x56,
         first = time,
         last = 0x5F
     };

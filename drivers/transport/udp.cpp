@@ -41,8 +41,8 @@ Addresses numeric(const std::string& address, int port) {
     hints.ai_socktype = SOCK_DGRAM;
     hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    ::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found);
-    return {found, &::freeaddrinfo};
+    const int failed = ::getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found);
+    return {failed ? nullptr : found, &::freeaddrinfo};
 }
 
 std::string check_udp(const void* pointer) {

@@ -50,7 +50,7 @@ struct ShellLine {
 };
 
 /// One line without its end; `position` stands for lep and apg. Empty when it is not exactly one.
-std::optional<ShellLine> parse_shell_line(std::string_view line);
+std::optional<ShellLine> parse_shell_line(std::string_view text);
 
 /// As the firmware prints it (`position` as lep does), with "\r\n".
 std::string encode(const ShellLine& line);

@@ -19,7 +19,7 @@ constexpr std::uint64_t clock_mask = (std::uint64_t{1} << 40) - 1;
 
 bool read_frame(const JsonValue& value, ListenerReport& report) {
     if (value.kind != JsonValue::Kind::string || value.text.size() % 2 != 0) return false;
-    if (value.text.size() / 2 > report.frame.capacity()) return false;
+    if (value.text.size() / 2 > decltype(report.frame)::capacity()) return false;
     for (std::size_t at = 0; at < value.text.size(); at += 2) {
         wire::Text byte{value.text.substr(at, 2)};
         if (!byte.hex(2, report.frame.emplace_back())) return false;

@@ -9,9 +9,9 @@ template <class Io, class T, std::size_t count>
 void numbers(Io& io, std::array<T, count>& values) {
     for (T& value : values) io.number(value);
 }
-template <class Io, std::size_t count>
-void int24s(Io& io, std::array<std::int32_t, count>& values) {
-    for (std::int32_t& value : values) io.int24(value);
+template <class Io, class T, std::size_t count>
+void int24s(Io& io, std::array<T, count>& values) {
+    for (T& value : values) io.int24(value);
 }
 
 /// One byte, but four in the frames that came last.

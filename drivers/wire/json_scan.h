@@ -20,8 +20,8 @@ struct JsonValue {
     std::optional<Number> number() const {
         if (kind != Kind::number && kind != Kind::string) return std::nullopt;
         Number value{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+        const auto [end, error] = std::from_chars(text.begin(), text.end(), value);
+        if (error != std::errc{} || end != text.end()) return std::nullopt;
         return value;
     }
     /// The first value of a list; of anything else, itself.

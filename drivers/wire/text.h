@@ -35,7 +35,7 @@ class Text {
     template <class Number>
     bool hex(std::size_t digits, Number& number) {
         if (hex_digits() != digits) return false;
-        std::from_chars(rest_.data(), rest_.data() + digits, number, 16);
+        std::from_chars(rest_.begin(), rest_.begin() + digits, number, 16);
         rest_.remove_prefix(digits);
         return true;
     }

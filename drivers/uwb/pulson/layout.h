@@ -41,7 +41,7 @@ class FieldReader {
 
     template <class... Fields>
     void operator()(Fields&&... fields) {
-        (one(fields), ...);
+        (one(std::forward<Fields>(fields)), ...);
     }
 
     /// Whether the message was exactly as long as its fields, and no count beyond what there is room for.
