@@ -9,10 +9,11 @@ check_26_a_recorded_flight_flies_live_as_in_the_replay() {
 }
 start_flight() { canplayer -I /out/guest/flight.can.log vcan0=uwb & can_feed=$!; }
 
-live_is_replay() { # live_is_replay CONFIGURATION INPUT FEED: twelve seconds
+live_is_replay() { # live_is_replay CONFIGURATION INPUT FEED: some twelve seconds
   stop_can_feed
-  record_live "$1" "$2" && locus watch --json --seconds 18 >/run/live.jsonl & local watcher=$!
-  sleep 6; "$3"
+  record_live "$1" "$2" || return
+  locus watch --json --seconds 18 >/run/live.jsonl & local watcher=$!
+  sleep 3; "$3"
   wait "$watcher"
   stop_can_feed; systemctl stop locusd
   cp /run/locusd/live.log /run/live.log
