@@ -89,7 +89,7 @@ std::optional<Ephemeris> EphemerisCollector::d1(Parts<3>& parts, const GnssNavig
 
 /// A fourth word holds the numbers of superframe and frame: strings of different frames are not mixed.
 std::optional<Ephemeris> EphemerisCollector::glonass(GlonassParts& parts, const GnssNavigation& from, Words words,
-                                                     const GpsTime& now) noexcept {
+                                                     const GpsTime& now) const noexcept {
     const auto string = glonass_string(words);
     if (!string) return std::nullopt;
     const std::uint32_t frame = words.size() > 3 ? words[3] >> 16 : 0;

@@ -20,7 +20,7 @@ class EphemerisCollector {
     /// The ephemeris that these words made complete, also when it is the same as before. `now`: GPS time, give or take
     /// some hours; of it comes what the satellites do not tell in full (week, day). Words of other messages and damaged
     /// ones are passed over.
-    std::optional<Ephemeris> add(const GnssNavigation& navigation, const GpsTime& now) noexcept;
+    std::optional<Ephemeris> add(const GnssNavigation& from, const GpsTime& now) noexcept;
 
     /// GPS time less UTC, for GLONASS; receivers tell it.
     void set_leap_seconds(int leap_s) noexcept { leap_s_ = leap_s; }
@@ -50,7 +50,7 @@ class EphemerisCollector {
     std::optional<Ephemeris> inav(Parts<5>& parts, Words words, int week) noexcept;
     std::optional<Ephemeris> d1(Parts<3>& parts, const GnssNavigation& from, Words words) noexcept;
     std::optional<Ephemeris> glonass(GlonassParts& parts, const GnssNavigation& from, Words words,
-                                     const GpsTime& now) noexcept;
+                                     const GpsTime& now) const noexcept;
 
     int leap_s_ = 18; ///< since 2017
     std::array<Parts<3>, gps_satellites> gps_{};

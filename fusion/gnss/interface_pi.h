@@ -2,5 +2,5 @@
 #pragma once
 
 namespace locus::gnss {
-inline constexpr double interface_pi = 3.1415926535898;
+inline constexpr double interface_pi = 3.1415926535898; // NOLINT(modernize-use-std-numbers): with these digits
 }
