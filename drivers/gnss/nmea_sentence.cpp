@@ -19,10 +19,6 @@ bool read_number(std::string_view text, Number& number, int base = 10) {
     return result.ec == std::errc{} && result.ptr == text.end();
 }
 
-std::uint8_t xor_of(std::string_view text) {
-    return wire::xor8({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
 /// Address without its talker: two letters of a talker and three of a type, or P and the maker's own.
 std::string_view type_of(std::string_view address) {
     return address.size() == 5 && address[0] != 'P' ? address.substr(2) : std::string_view{};
@@ -49,7 +45,7 @@ std::variant<Sentence, Refusal> parse_sentence(std::string_view line, bool need_
         std::uint8_t told = 0;
         if (body.size() != star + 3 || !read_number(body.substr(star + 1), told, 16)) return Refusal::malformed;
         body = body.substr(0, star);
-        if (xor_of(body) != told) return Refusal::bad_checksum;
+        if (wire::xor8(body) != told) return Refusal::bad_checksum;
     } else if (need_checksum) {
         return Refusal::bad_checksum;
     }
@@ -101,7 +97,7 @@ double Fields::angle_deg(std::size_t i, char positive, char negative, double lim
 
 std::string framed(std::string_view body) {
     constexpr std::string_view digits = "0123456789ABCDEF";
-    const std::uint8_t sum = xor_of(body);
+    const std::uint8_t sum = wire::xor8(body);
     return std::string{"$"}.append(body).append({'*', digits[sum >> 4], digits[sum & 15], '\r', '\n'});
 }
 

@@ -3,11 +3,9 @@
 #pragma once
 
 #include "drivers/decoder.h"
+#include "drivers/units.h"
 
 namespace locus::imu {
-
-inline constexpr double standard_gravity_mps2 = 9.80665; ///< BIPM, The International System of Units
-inline constexpr double rad_per_deg = 0.017453292519943295;
 
 struct MountingSettings {
     Address tag = no_address;

@@ -12,10 +12,6 @@ namespace {
 constexpr std::string_view vnymr = "$VNYMR,";
 constexpr std::size_t vnymr_numbers = 12;
 
-std::uint8_t xor_of(std::string_view text) {
-    return wire::xor8({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
 /// The whole text as a number.
 template <class T, class... Base>
 bool read_number(std::string_view text, T& value, Base... base) {
@@ -43,7 +39,7 @@ std::optional<VectorNavData> parse_vnymr(std::string_view line) {
     if (!line.starts_with(vnymr) || star == std::string_view::npos) return std::nullopt;
     std::uint8_t checksum = 0;
     if (line.size() != star + 3 || !read_number(line.substr(star + 1), checksum, 16) ||
-        checksum != xor_of(line.substr(1, star - 1)))
+        checksum != wire::xor8(line.substr(1, star - 1)))
         return std::nullopt;
     std::array<double, vnymr_numbers> v{};
     if (!read_numbers(line.substr(vnymr.size(), star - vnymr.size()), v)) return std::nullopt;
@@ -61,7 +57,7 @@ std::string encode_vnymr(const VectorNavData& data) {
         "{}+000.000,+000.000,+000.000,{:+08.4f},{:+08.4f},{:+08.4f},{:+07.3f},{:+07.3f},{:+07.3f},{:+010.6f},"
         "{:+010.6f},{:+010.6f}",
         vnymr, m[0], m[1], m[2], a[0], a[1], a[2], w[0], w[1], w[2]);
-    return fmt::format("{}*{:02X}\r\n", line, xor_of(std::string_view{line}.substr(1)));
+    return fmt::format("{}*{:02X}\r\n", line, wire::xor8(std::string_view{line}.substr(1)));
 }
 
 } // namespace locus::imu

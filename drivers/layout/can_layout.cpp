@@ -9,12 +9,6 @@
 namespace locus::layout {
 namespace {
 
-std::vector<Quantity> quantities_of(const CanLayoutSettings& settings) {
-    std::vector<Quantity> quantities;
-    for (const CanField& field : settings.fields) quantities.push_back(quantity_named(field.quantity));
-    return quantities;
-}
-
 std::uint32_t wire_id(const CanField& field) {
     return field.extended || field.can_id > CAN_SFF_MASK ? field.can_id | CAN_EFF_FLAG : field.can_id;
 }
@@ -42,9 +36,7 @@ struct Signal {
 class CanLayout : public Decoder {
   public:
     explicit CanLayout(const CanLayoutSettings& settings)
-        : assembly_{quantities_of(settings),
-                    {settings.tag, static_cast<std::uint64_t>(settings.anchor_offset),
-                     static_cast<std::uint64_t>(settings.tag_offset)}},
+        : assembly_{quantities_of(settings.fields), owner_of(settings)},
           signals_{settings.fields.begin(), settings.fields.end()} {}
 
     void decode(const Packet& packet, MeasurementSink& sink) override {

@@ -1,17 +1,15 @@
 // Names, units and dimensions of the quantities of a described layout.
 #include "drivers/layout/quantity.h"
 
+#include "drivers/units.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 
 namespace locus::layout {
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
-constexpr double standard_gravity_mps2 = 9.80665;
 
 constexpr std::array<double, unit_names.size()> si{1,
                                                    1,
@@ -22,9 +20,9 @@ constexpr std::array<double, unit_names.size()> si{1,
                                                    0.44704,
                                                    0.001,
                                                    1,
-                                                   deg,
+                                                   rad_per_deg,
                                                    1,
-                                                   deg,
+                                                   rad_per_deg,
                                                    1,
                                                    standard_gravity_mps2,
                                                    standard_gravity_mps2 * 1e-3,

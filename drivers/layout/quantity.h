@@ -74,6 +74,21 @@ struct Owner {
     std::uint64_t tag_offset = 0;
 };
 
+/// What a layout's settings say of it.
+template <class Settings>
+Owner owner_of(const Settings& settings) {
+    return {settings.tag, static_cast<std::uint64_t>(settings.anchor_offset),
+            static_cast<std::uint64_t>(settings.tag_offset)};
+}
+
+/// Of each field of a layout.
+template <class Field>
+std::vector<Quantity> quantities_of(const std::vector<Field>& fields) {
+    std::vector<Quantity> quantities;
+    for (const Field& field : fields) quantities.push_back(quantity_named(field.quantity));
+    return quantities;
+}
+
 /// Puts measurements together from fields that may come in several frames. A measurement goes out when every field that
 /// it needs has come since the last one; several fields of one quantity (four wheels) are averaged.
 class Assembly {

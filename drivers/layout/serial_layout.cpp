@@ -10,19 +10,24 @@
 namespace locus::layout {
 namespace {
 
-std::vector<Quantity> meanings(const SerialLayoutSettings& settings) {
-    std::vector<Quantity> quantities;
-    for (const SerialField& field : settings.fields) quantities.push_back(quantity_named(field.quantity));
-    return quantities;
-}
+/// A field with what its settings' words mean worked out beforehand.
+struct Slot {
+    explicit Slot(const SerialField& described)
+        : field{described}, at{static_cast<std::size_t>(field.at_byte)}, bytes{static_cast<std::size_t>(field.bytes)},
+          big{field.byte_order == "big"}, si{to_si(field.unit)} {}
+
+    SerialField field;
+    std::size_t at, bytes;
+    bool big;
+    double si;
+};
 
 class SerialLayout : public Decoder {
   public:
     explicit SerialLayout(const SerialLayoutSettings& settings)
         : settings_{settings}, frames_{SerialFormat{settings}},
-          assembly_{meanings(settings),
-                    {settings.tag, static_cast<std::uint64_t>(settings.anchor_offset),
-                     static_cast<std::uint64_t>(settings.tag_offset)}} {}
+          assembly_{quantities_of(settings.fields), owner_of(settings)},
+          slots_{settings.fields.begin(), settings.fields.end()} {}
 
     void decode(const Packet& packet, MeasurementSink& sink) override {
         frames_.feed(
@@ -52,15 +57,15 @@ class SerialLayout : public Decoder {
     }
 
     void read(wire::Bytes bytes, bool in_element) {
-        for (std::size_t i = 0; i < settings_.fields.size(); ++i) {
-            const SerialField& field = settings_.fields[i];
+        for (std::size_t i = 0; i < slots_.size(); ++i) {
+            const Slot& slot = slots_[i];
+            const SerialField& field = slot.field;
             if (field.in_element != in_element) continue;
-            const auto at = static_cast<std::size_t>(field.at_byte), count = static_cast<std::size_t>(field.bytes);
             const std::uint64_t raw =
-                field.byte_order == "big" ? wire::big_bytes(bytes, at, count) : wire::little_bytes(bytes, at, count);
+                slot.big ? wire::big_bytes(bytes, slot.at, slot.bytes) : wire::little_bytes(bytes, slot.at, slot.bytes);
             if (static_cast<double>(raw) == field.invalid_raw) continue;
-            const double steps = value_of(raw, 8 * static_cast<unsigned>(count), field.type);
-            const double value = (steps * field.factor + field.offset) * to_si(field.unit);
+            const double steps = value_of(raw, 8 * static_cast<unsigned>(slot.bytes), field.type);
+            const double value = (steps * field.factor + field.offset) * slot.si;
             if (std::isfinite(value)) assembly_.set(i, value);
         }
     }
@@ -68,6 +73,7 @@ class SerialLayout : public Decoder {
     SerialLayoutSettings settings_;
     FrameStream<SerialFormat> frames_;
     Assembly assembly_;
+    std::vector<Slot> slots_;
 };
 
 std::string complaint_of(const SerialField& field, const SerialLayoutSettings& layout) {

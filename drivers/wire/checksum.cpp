@@ -21,6 +21,10 @@ std::uint8_t xor8(Bytes bytes) {
                            [](std::uint8_t sum, std::uint8_t byte) { return static_cast<std::uint8_t>(sum ^ byte); });
 }
 
+std::uint8_t xor8(std::string_view text) {
+    return xor8(Bytes{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
 std::uint16_t sum16_big(Bytes bytes) {
     unsigned sum = 0;
     for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) sum += big<std::uint16_t>(bytes, i);

@@ -4,6 +4,7 @@
 #include "drivers/wire/bytes.h"
 
 #include <cstdint>
+#include <string_view>
 
 namespace locus::wire {
 
@@ -11,6 +12,7 @@ namespace locus::wire {
 std::uint8_t sum8(Bytes bytes);
 /// Exclusive or of the bytes (NMEA, TI ZNP, VectorNav ASCII).
 std::uint8_t xor8(Bytes bytes);
+std::uint8_t xor8(std::string_view text);
 /// Sum of big-endian 16-bit words modulo 65536, an odd last byte left out (Epson).
 std::uint16_t sum16_big(Bytes bytes);
 /// Fletcher's checksum in 8-bit arithmetic: first sum in the low byte, second in the high (UBX).

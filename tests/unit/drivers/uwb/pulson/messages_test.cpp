@@ -6,6 +6,7 @@
 #include "drivers/uwb/pulson/neighbors.h"
 #include "drivers/uwb/pulson/radio_info.h"
 #include "tests/examples/decoder_example.h"
+#include "tests/unit/drivers/uwb/pulson/computed_range.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -157,24 +158,7 @@ TEST(PulsonMessages, RangeRequestAndItsConfirm) {
 }
 
 TEST(PulsonMessages, FullRange) {
-    const FullRange expected{.message = 7,
-                             .responder = 101,
-                             .stopwatch_ms = 20,
-                             .precise_mm = 5234,
-                             .coarse_mm = 5300,
-                             .filtered_mm = 5240,
-                             .precise_sigma_mm = 21,
-                             .coarse_sigma_mm = 150,
-                             .filtered_sigma_mm = 25,
-                             .velocity_mmps = -120,
-                             .velocity_sigma_mmps = 40,
-                             .parts = precise,
-                             .requester_edge = line_of_sight,
-                             .responder_edge = line_of_sight,
-                             .noise = 210,
-                             .peak = 4200,
-                             .coarse_flight_bins = 571,
-                             .timestamp = 123456};
+    const FullRange& expected = computed_range;
     const auto bytes =
         from_hex("02 01 00 07 00 00 00 65 00 00 00 14 00 00 14 72 00 00 14 B4 00 00 14 78 00 15 00 96 00 19 "
                  "FF 88 00 28 01 00 00 08 00 08 00 D2 10 68 00 00 02 3B 00 01 E2 40");

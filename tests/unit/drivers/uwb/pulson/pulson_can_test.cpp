@@ -4,6 +4,7 @@
 #include "drivers/recording/log_line.h"
 #include "drivers/uwb/pulson/messages.h"
 #include "tests/unit/drivers/collector.h"
+#include "tests/unit/drivers/uwb/pulson/computed_range.h"
 
 #include <gtest/gtest.h>
 
@@ -84,25 +85,7 @@ TEST(PulsonCan, ASilentRadioIsGreetedAsInTheVendorsCapture) {
 }
 
 TEST(PulsonCan, FramesAsTheRadioSendsThem) {
-    const FullRange range{.message = 7,
-                          .responder = 101,
-                          .stopwatch_ms = 20,
-                          .precise_mm = 5234,
-                          .coarse_mm = 5300,
-                          .filtered_mm = 5240,
-                          .precise_sigma_mm = 21,
-                          .coarse_sigma_mm = 150,
-                          .filtered_sigma_mm = 25,
-                          .velocity_mmps = -120,
-                          .velocity_sigma_mmps = 40,
-                          .parts = precise,
-                          .requester_edge = line_of_sight,
-                          .responder_edge = line_of_sight,
-                          .noise = 210,
-                          .peak = 4200,
-                          .coarse_flight_bins = 571,
-                          .timestamp = 123456};
-    const auto frames = can_frames(encode(range));
+    const auto frames = can_frames(encode(computed_range));
     ASSERT_EQ(frames.size(), range_frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i)
         EXPECT_EQ(to_log_line("can0", frames[i].packet(Timestamp{0s})), "(0.000000) can0 " + range_frames[i]);
