@@ -6,15 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace locus::layout {
 namespace {
 
 /// A field with what its settings' words mean worked out beforehand.
 struct Slot {
-    explicit Slot(const SerialField& described)
-        : field{described}, at{static_cast<std::size_t>(field.at_byte)}, bytes{static_cast<std::size_t>(field.bytes)},
-          big{field.byte_order == "big"}, si{to_si(field.unit)} {}
+    explicit Slot(SerialField described)
+        : field{std::move(described)}, at{static_cast<std::size_t>(field.at_byte)},
+          bytes{static_cast<std::size_t>(field.bytes)}, big{field.byte_order == "big"}, si{to_si(field.unit)} {}
 
     SerialField field;
     std::size_t at, bytes;
