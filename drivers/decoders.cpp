@@ -9,6 +9,7 @@
 #include "drivers/imu/xsens_can.h"
 #include "drivers/layout/can_layout.h"
 #include "drivers/layout/serial_layout.h"
+#include "drivers/radio/cc2531.h"
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
@@ -53,6 +54,8 @@ constexpr std::array decoder_rows{
                option_table<radio::XbeeSettings>(radio::xbee_options), radio::make_xbee},
     DecoderRow{"znp", "TI Z-Stack network processor (CC2530, CC2652): link quality of other radios", Wire::bytes,
                option_table<radio::ZnpSettings>(radio::znp_options), radio::make_znp},
+    DecoderRow{"cc2531", "TI CC2531 packet sniffer: signal strength of every 802.15.4 radio around", Wire::bytes,
+               option_table<radio::Cc2531Settings>(radio::cc2531_options), radio::make_cc2531},
     DecoderRow{"hm10", "HM-10 and HM-17 BLE modules: iBeacons that they scan", Wire::bytes,
                option_table<radio::Hm10Settings>(radio::hm10_options), radio::make_hm10},
     DecoderRow{"obd2", "OBD-II over CAN: asks a vehicle for its speed and the barometric pressure", Wire::can,

@@ -1,4 +1,6 @@
+#include "drivers/radio/cc2531.h"
 #include "drivers/radio/hm10.h"
+#include "drivers/radio/mac_header.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
 #include "tests/examples/decoder_example.h"
@@ -40,8 +42,20 @@ DecoderExample hm10() {
     return example;
 }
 
+DecoderExample cc2531() {
+    DecoderExample example{"cc2531"};
+    for (std::uint8_t i = 0; i < 20; ++i) {
+        const radio::MacHeader::Node everybody{0x1234, 0xFFFF, false}, lamp{0x1234, 0x7700u + i, false};
+        const Chunk frame = encode(radio::MacHeader{1, i, everybody, lamp});
+        example.chunks.push_back(encode(radio::Cc2531Record{1000u * i, frame, 28, true, 106}));
+    }
+    example.checksum = false;
+    example.settings = std::make_shared<radio::Cc2531Settings>(radio::Cc2531Settings{address(1)});
+    return example;
+}
+
 } // namespace
 
-std::vector<DecoderExample> radio() { return {xbee(false), xbee(true), znp(), hm10()}; }
+std::vector<DecoderExample> radio() { return {xbee(false), xbee(true), znp(), hm10(), cc2531()}; }
 
 } // namespace locus::examples
