@@ -17,6 +17,7 @@
 #include "drivers/uwb/dwm1001_shell.h"
 #include "drivers/uwb/dwm1001_tlv.h"
 #include "drivers/uwb/listener_json.h"
+#include "drivers/uwb/loco_sniffer.h"
 #include "drivers/uwb/navlab.h"
 #include "drivers/uwb/nlink.h"
 #include "drivers/uwb/pdoa_json.h"
@@ -50,6 +51,8 @@ constexpr std::array decoder_rows{
                option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
     DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
                Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
+    DecoderRow{"loco_sniffer", "Bitcraze Loco node as a sniffer: range differences from TDoA2 and TDoA3", Wire::bytes,
+               option_table<uwb::LocoSnifferSettings>(uwb::loco_sniffer_options), uwb::make_loco_sniffer},
     DecoderRow{"xbee", "Digi XBee in API mode: signal strength of other radios", Wire::bytes,
                option_table<radio::XbeeSettings>(radio::xbee_options), radio::make_xbee},
     DecoderRow{"znp", "TI Z-Stack network processor (CC2530, CC2652): link quality of other radios", Wire::bytes,

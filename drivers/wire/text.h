@@ -39,6 +39,13 @@ class Text {
         rest_.remove_prefix(digits);
         return true;
     }
+    /// Two hex digits, whatever stands behind them.
+    bool hex_byte(std::uint8_t& byte) {
+        if (rest_.size() < 2 || std::from_chars(rest_.begin(), rest_.begin() + 2, byte, 16).ptr != rest_.begin() + 2)
+            return false;
+        rest_.remove_prefix(2);
+        return true;
+    }
     /// How many hex digits stand there.
     std::size_t hex_digits() const { return std::min(rest_.find_first_not_of("0123456789abcdefABCDEF"), rest_.size()); }
 

@@ -11,6 +11,7 @@ std::vector<DecoderExample> dwm1001();
 std::vector<DecoderExample> epson_g370();
 std::vector<DecoderExample> layouts();
 std::vector<DecoderExample> listener_json();
+std::vector<DecoderExample> loco_sniffer();
 std::vector<DecoderExample> navlab();
 std::vector<DecoderExample> nlink();
 std::vector<DecoderExample> nmea();
@@ -27,9 +28,9 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{dw1000_can, dwm1001,  epson_g370, layouts,   listener_json, navlab,
-                              nlink,      nmea,     obd2,       pdoa_json, pulson,        radio,
-                              robomaster, trek1000, ubx,        vectornav, witmotion,     xsens};
+constexpr std::array families{dw1000_can, dwm1001, epson_g370, layouts,   listener_json, loco_sniffer, navlab,
+                              nlink,      nmea,    obd2,       pdoa_json, pulson,        radio,        robomaster,
+                              trek1000,   ubx,     vectornav,  witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;
