@@ -13,6 +13,7 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/uwb/cwru_can.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/dwm1001_shell.h"
 #include "drivers/uwb/dwm1001_tlv.h"
@@ -39,6 +40,8 @@ constexpr std::array decoder_rows{
                option_table<uwb::Dw1000CanSettings>(uwb::dw1000_can_options), uwb::make_dw1000_can},
     DecoderRow{"robomaster_can", "DJI RoboMaster UWB tag module: six ranges over CAN", Wire::can,
                option_table<uwb::RobomasterSettings>(uwb::robomaster_options), uwb::make_robomaster_can},
+    DecoderRow{"cwru_can", "CWRU's DWM1000 nodes on CAN: ranges, asked for or not", Wire::can,
+               option_table<uwb::CwruSettings>(uwb::cwru_options), uwb::make_cwru_can},
     DecoderRow{"nlink", "Nooploop LinkTrack: ranges and IMU in NLink frames", Wire::bytes,
                option_table<uwb::NlinkSettings>(uwb::nlink_options), uwb::make_nlink},
     DecoderRow{"dwm1001_shell", "DWM1001 with PANS: distances that its shell prints (lec, les)", Wire::bytes,
