@@ -22,13 +22,17 @@ inline constexpr std::size_t refusal_count = static_cast<std::size_t>(Refusal::c
 inline constexpr std::array<std::string_view, refusal_count> refusal_names{"garbage",   "too_long",     "bad_checksum",
                                                                            "malformed", "out_of_range", "unknown_type"};
 
+/// Whether the bytes themselves were damaged; else they made a frame, which said something that cannot be used.
+constexpr bool is_damage(Refusal reason) { return reason != Refusal::out_of_range && reason != Refusal::unknown_type; }
+
 class MeasurementSink {
   public:
     virtual ~MeasurementSink() = default;
     /// `input` and `sequence` are filled in by the sink.
     virtual void accept(Timestamp time, const Observation& observation) = 0;
-    /// A whole frame was understood (whether or not it held a measurement).
-    virtual void frame() {}
+    /// A whole frame was understood, whether or not it held a measurement: its bytes without a line's end or what wraps
+    /// a message, valid during the call.
+    virtual void frame(std::span<const std::uint8_t> /*bytes*/) {}
     virtual void refuse(Refusal reason) = 0;
 };
 
@@ -49,6 +53,7 @@ struct DecoderRow {
     Wire wire;
     OptionTable options;
     std::unique_ptr<Decoder> (*make)(const void* settings);
+    bool datagrams = false; ///< a packet is a message, whole in itself
 };
 
 std::span<const DecoderRow> decoder_table();

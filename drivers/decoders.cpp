@@ -95,7 +95,7 @@ constexpr std::array decoder_rows{
                uwb::pulson::make_uart},
     DecoderRow{"pulson_udp", "PulsON P4xx radio over UDP: RCM and RangeNet ranges", Wire::bytes,
                option_table<uwb::pulson::PulsonSettings>(uwb::pulson::stream_options, {}, uwb::pulson::check_pulson),
-               uwb::pulson::make_udp},
+               uwb::pulson::make_udp, true},
     DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
                option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
     DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,

@@ -39,6 +39,7 @@ bool Input::open() {
     if (parts_.decoder) parts_.decoder->reset();
     if (was_open_) count(status_.reconnects);
     was_open_ = true;
+    in_step_ = false;
     told_.clear();
     status_.trouble.set({});
     status_.state = InputState::open;
@@ -73,9 +74,16 @@ void Input::ask_device() const {
 void Input::fail(InputEvent::Kind kind, std::string_view text) {
     status_.state = InputState::waiting;
     if (text == told_) return;
+    note_trouble(text);
+    emit(kind, text);
+}
+
+void Input::note_trouble(std::string_view text) {
     told_ = text;
     status_.trouble.set(text);
-    emit(kind, text);
+    if (text.empty()) return;
+    status_.last_error.set(text);
+    status_.last_error_ns = to_ns(monotonic_now());
 }
 
 void Input::copy_counters() {
@@ -86,8 +94,7 @@ void Input::copy_counters() {
 void Input::tell_trouble() {
     const std::string_view trouble = parts_.transport->trouble();
     if (trouble == told_) return;
-    told_ = trouble;
-    status_.trouble.set(trouble);
+    note_trouble(trouble);
     emit(InputEvent::Kind::trouble, trouble);
 }
 
@@ -110,8 +117,16 @@ void Input::accept(Timestamp time, const Observation& observation) {
     if (!parts_.ring->push({time - parts_.delay, sequence_++, parts_.index, observation})) count(status_.ring_dropped);
 }
 
-void Input::frame() { count(status_.frames); }
+void Input::frame(std::span<const std::uint8_t> /*bytes*/) {
+    count(status_.frames);
+    in_step_ = true;
+}
 
-void Input::refuse(Refusal reason) { count(status_.refused[static_cast<std::size_t>(reason)]); }
+void Input::refuse(Refusal reason) {
+    count(status_.refused[static_cast<std::size_t>(reason)]);
+    if (!is_damage(reason)) return;
+    if (in_step_) count(status_.resyncs);
+    in_step_ = false;
+}
 
 } // namespace locus

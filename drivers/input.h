@@ -62,6 +62,7 @@ class Input : private PacketSink, private MeasurementSink {
     bool open();
     ReadStatus read_until_lost(const std::stop_token& stop);
     void fail(InputEvent::Kind kind, std::string_view text);
+    void note_trouble(std::string_view text);
     void ask_device() const;
     void copy_counters();
     void tell_trouble();
@@ -69,7 +70,7 @@ class Input : private PacketSink, private MeasurementSink {
 
     void packet(const Packet& packet) override;
     void accept(Timestamp time, const Observation& observation) override;
-    void frame() override;
+    void frame(std::span<const std::uint8_t> bytes) override;
     void refuse(Refusal reason) override;
 
     InputParts parts_;
@@ -77,6 +78,7 @@ class Input : private PacketSink, private MeasurementSink {
     BackOff back_off_;
     std::string told_; ///< the trouble that was told last
     bool was_open_ = false;
+    bool in_step_ = false; ///< the decoder knows where frames begin
     std::uint32_t sequence_ = 0;
 };
 

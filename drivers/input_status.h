@@ -53,6 +53,7 @@ struct InputStatus {
     Counter frames{0};       ///< whole frames that the decoder understood
     Counter measurements{0}; ///< what the decoder gave, also what the ring then dropped
     std::array<Counter, refusal_count> refused{};
+    Counter resyncs{0};        ///< times that the decoder had to look for the next frame after damage
     Counter reconnects{0};     ///< times that the device was opened again after a loss
     Counter ring_dropped{0};   ///< measurements lost because the fusion thread did not keep up
     Counter kernel_dropped{0}; ///< frames lost in the kernel because this thread did not keep up
@@ -62,6 +63,8 @@ struct InputStatus {
     /// Why it is waiting; while open: a trouble that does not stop it ("can0 is error passive"). Empty when all is
     /// well.
     SharedText trouble;
+    SharedText last_error;                      ///< the newest trouble, also when it is over
+    std::atomic<std::int64_t> last_error_ns{0}; ///< when it came, ns of CLOCK_MONOTONIC; 0: there was none
 };
 
 } // namespace locus

@@ -69,17 +69,20 @@ Table input_table(const json& inputs) {
                  {"decoder"},
                  {"state"},
                  {"age", Align::right},
-                 {"packets", Align::right},
+                 {"bytes/s", Align::right},
+                 {"frames/s", Align::right},
+                 {"measured/s", Align::right},
                  {"frames", Align::right},
-                 {"measurements", Align::right},
                  {"refused", Align::right},
+                 {"resyncs", Align::right},
                  {"dropped", Align::right},
                  {"reconnects", Align::right}});
     for (const auto& input : inputs)
         table.add({text(input, "name"), text(input, "transport"), text(input, "decoder"), text(input, "state"),
-                   duration(number(input, "age_s")), figure(number(input, "packets"), 0),
-                   figure(number(input, "frames"), 0), figure(number(input, "measurements"), 0),
-                   figure(refused(input), 0), figure(dropped(input), 0), figure(number(input, "reconnects"), 0)});
+                   duration(number(input, "age_s")), figure(number(input, "bytes_per_s"), 0),
+                   figure(number(input, "frames_per_s"), 1), figure(number(input, "measurements_per_s"), 1),
+                   figure(number(input, "frames"), 0), figure(refused(input), 0), figure(number(input, "resyncs"), 0),
+                   figure(dropped(input), 0), figure(number(input, "reconnects"), 0)});
     return table;
 }
 
@@ -87,7 +90,11 @@ Table input_table(const json& inputs) {
 void print_remarks(const json& inputs) {
     for (const auto& input : inputs) {
         const std::string error = text(input, "error");
+        const std::string last = text(input, "last_error");
         if (!error.empty()) fmt::print("  {}: {}\n", text(input, "name"), toned(error, Tone::bad));
+        if (error.empty() && !last.empty())
+            fmt::print("  {}: well again; {} ago: {}\n", text(input, "name"),
+                       duration(number(input, "last_error_age_s")), last);
         for (const auto& [reason, count] : object(input, "refused").items())
             if (count.is_number() && count.get<double>() > 0)
                 fmt::print("  {}: {} refused as {}\n", text(input, "name"), count.dump(), printable(reason));
@@ -120,7 +127,9 @@ void add_sources(CLI::App& root, int& exit_code) {
          "  locus sources --json | jq -r '.sources[] | select(.used | not) | .name + \": \" + .sentence'\n"
          "\"innovation\" is measured less expected, \"sigma\" the standard deviation that was foreseen for it, "
          "\"ratio\"\n"
-         "the innovation over the largest that is accepted: above 1 the measurement was refused."},
+         "the innovation over the largest that is accepted: above 1 the measurement was refused.\n"
+         "Rates are those of the last seconds. \"resyncs\" counts how often a decoder had to look for the next frame\n"
+         "after damage, \"dropped\" what this computer did not fetch in time."},
         sources);
 }
 

@@ -67,21 +67,39 @@ ordered_json refused_json(const InputStatus& status) {
     return object;
 }
 
-ordered_json input_json(const InputEntry& input, Timestamp now) {
+void put_rates(ordered_json& object, const InputRate& rate) {
+    object["bytes_per_s"] = rate.bytes;
+    object["packets_per_s"] = rate.packets;
+    object["frames_per_s"] = rate.frames;
+    object["measurements_per_s"] = rate.measurements;
+}
+
+/// What went wrong last, also when all is well again.
+void put_last_error(ordered_json& object, const InputStatus& status, Timestamp now) {
+    const std::string error = status.last_error.get();
+    if (error.empty()) return;
+    object["last_error"] = error;
+    put_age(object, "last_error_age_s", timestamp_from_ns(status.last_error_ns), now);
+}
+
+ordered_json input_json(const InputEntry& input, const InputRates& rates, Timestamp now) {
     ordered_json object{{"name", input.name}, {"transport", input.transport}, {"decoder", input.decoder}};
     object["state"] = input.status ? name_of(input.status->state) : "disabled";
     if (!input.status) return object;
     const InputStatus& status = *input.status;
     object["error"] = status.trouble.get();
+    put_last_error(object, status, now);
     object["bytes"] = status.bytes.load();
     object["packets"] = status.packets.load();
     object["frames"] = status.frames.load();
     object["measurements"] = status.measurements.load();
     object["refused"] = refused_json(status);
+    object["resyncs"] = status.resyncs.load();
     object["reconnects"] = status.reconnects.load();
     object["ring_dropped"] = status.ring_dropped.load();
     object["kernel_dropped"] = status.kernel_dropped.load();
     object["wire_errors"] = status.wire_errors.load();
+    if (const auto rate = rates.rate(status, now)) put_rates(object, *rate);
     put_age(object, "age_s", timestamp_from_ns(status.last_packet_ns), now);
     return object;
 }
@@ -130,11 +148,11 @@ std::string watch_line(const Watch& watch) {
     return line(object);
 }
 
-std::string sources_line(const Picture& picture, const Roster& roster, Timestamp now) {
+std::string sources_line(const Picture& picture, const Roster& roster, const InputRates& rates, Timestamp now) {
     ordered_json sources = ordered_json::array(), inputs = ordered_json::array();
     for (const AidStatus& source : picture.sources())
         if (source.source != no_address) sources.push_back(source_json(source, roster, now));
-    for (const InputEntry& input : roster.inputs) inputs.push_back(input_json(input, now));
+    for (const InputEntry& input : roster.inputs) inputs.push_back(input_json(input, rates, now));
     return line({{"class", "SOURCES"}, {"sources", std::move(sources)}, {"inputs", std::move(inputs)}});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "daemon/socket/command.h"
+#include "daemon/socket/input_rates.h"
 #include "daemon/socket/picture.h"
 #include "daemon/socket/roster.h"
 
@@ -19,7 +20,7 @@ std::string_view release();
 
 std::string version_line(const Roster& roster);
 std::string watch_line(const Watch& watch);
-std::string sources_line(const Picture& picture, const Roster& roster, Timestamp now);
+std::string sources_line(const Picture& picture, const Roster& roster, const InputRates& rates, Timestamp now);
 std::string targets_line(const Picture& picture, const Roster& roster, Timestamp now);
 std::string status_line(const Picture& picture, const Roster& roster, std::size_t clients, Timestamp now);
 /// The newest POSE of every target, then POLL.

@@ -51,6 +51,7 @@ void Publisher::run(const std::stop_token& stop) {
         take_output();
         flush_all();
         resume_accepting();
+        input_rates_.watch(roster_->inputs, monotonic_now());
     }
 }
 
@@ -126,7 +127,7 @@ std::string Publisher::answer_to(Id id, Client& client, const Command& command) 
     case Verb::poll:
         return poll_lines(picture_, *roster_);
     case Verb::sources:
-        return sources_line(picture_, *roster_, monotonic_now());
+        return sources_line(picture_, *roster_, input_rates_, monotonic_now());
     case Verb::targets:
         return targets_line(picture_, *roster_, monotonic_now());
     case Verb::status:

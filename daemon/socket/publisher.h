@@ -5,6 +5,7 @@
 #include "daemon/output.h"
 #include "daemon/rate_limit.h"
 #include "daemon/socket/client.h"
+#include "daemon/socket/input_rates.h"
 #include "daemon/socket/listener.h"
 #include "daemon/socket/picture.h"
 #include "daemon/socket/post.h"
@@ -64,6 +65,7 @@ class Publisher {
     std::optional<Timestamp> accept_again_; ///< set: no new clients until then
     Picture picture_;
     ReasonWatch reasons_;
+    InputRates input_rates_;
     RateLimit reason_lines_{20, std::chrono::seconds{1}};
     std::atomic<std::uint64_t> heartbeat_{0};
 };

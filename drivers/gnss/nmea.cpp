@@ -2,6 +2,7 @@
 
 #include "drivers/gnss/nmea_epoch.h"
 #include "drivers/line_splitter.h"
+#include "drivers/wire/bytes.h"
 
 #include <cmath>
 #include <utility>
@@ -44,18 +45,18 @@ class Nmea : public Decoder {
         const auto parsed = parse_sentence(text, settings_.need_checksum);
         if (const auto* refusal = std::get_if<Refusal>(&parsed)) return sink.refuse(*refusal);
         const auto& sentence = std::get<Sentence>(parsed);
-        if (sentence.type == "GGA") return add(parse_gga(sentence), begun, sink);
-        if (sentence.type == "RMC") return add(parse_rmc(sentence), begun, sink);
-        if (sentence.type == "VTG") return add(parse_vtg(sentence), begun, sink);
-        if (sentence.type == "GST") return add(parse_gst(sentence), begun, sink);
-        if (sentence.type == "ZDA") return add(parse_zda(sentence), begun, sink);
-        sink.frame();
+        if (sentence.type == "GGA") return add(parse_gga(sentence), text, begun, sink);
+        if (sentence.type == "RMC") return add(parse_rmc(sentence), text, begun, sink);
+        if (sentence.type == "VTG") return add(parse_vtg(sentence), text, begun, sink);
+        if (sentence.type == "GST") return add(parse_gst(sentence), text, begun, sink);
+        if (sentence.type == "ZDA") return add(parse_zda(sentence), text, begun, sink);
+        sink.frame(wire::bytes_of(text));
     }
 
     template <class Message>
-    void add(const std::optional<Message>& message, Timestamp begun, MeasurementSink& sink) {
+    void add(const std::optional<Message>& message, std::string_view text, Timestamp begun, MeasurementSink& sink) {
         if (!message) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         if constexpr (requires { message->time_us; }) {
             if (message->time_us == no_time) return; // a receiver that has not found the time has found no place
             if (message->time_us != epoch_.time_us()) begin(message->time_us, begun, sink);

@@ -113,14 +113,14 @@ class Ubx : public Decoder {
         case SensorReport::id:
             return whole(parse_sensor_report(payload), frame, sink);
         default:
-            return sink.frame();
+            return sink.frame(frame.bytes);
         }
     }
 
     template <class Message>
     void whole(const std::optional<Message>& message, const Frame& frame, MeasurementSink& sink) const {
         if (!message) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(frame.bytes);
         give(*message, frame, sink);
     }
 

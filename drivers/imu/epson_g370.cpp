@@ -82,7 +82,7 @@ class EpsonG370 : public Decoder {
     EpsonStart start_;
 
     void burst(const Frame& frame, MeasurementSink& sink) {
-        sink.frame();
+        sink.frame(frame.bytes);
         start_.heard_burst();
         const EpsonBurst burst = parse_epson_burst(frame.bytes, settings_);
         const Timestamp time = settings_.count ? clock_.host_time(burst.count, frame.begun) : frame.begun;

@@ -72,7 +72,7 @@ class VectorNav : public Decoder {
     DeviceClock clock_{1e-9, 64}; // TimeStartup
 
     void message(const Frame& frame, MeasurementSink& sink) {
-        sink.frame();
+        sink.frame(frame.bytes);
         const bool is_binary = frame.bytes[0] == vectornav_head;
         const VectorNavData data =
             is_binary ? parse_vectornav(frame.bytes) : parse_vnymr(line_of(frame.bytes)).value_or(VectorNavData{});

@@ -49,7 +49,7 @@ class WitMotion : public Decoder {
         stream_.feed(
             packet,
             [&](const Frame& frame) {
-                sink.frame();
+                sink.frame(frame.bytes);
                 sample_.take(parse_wit_frame(frame.bytes.first<wit_frame_length>()), frame.begun, sink);
             },
             [&](Refusal reason) {
@@ -80,7 +80,7 @@ class WitMotionCan : public Decoder {
             return sink.refuse(Refusal::malformed);
         }
         if (!is_wit_type(packet.data[1])) return sink.refuse(Refusal::unknown_type);
-        sink.frame();
+        sink.frame(packet.data);
         WitFrame frame{packet.data[1], {}};
         if (frame.type == WitFrame::pressure) return sample_.forget();
         for (std::size_t i = 0; i < 3; ++i) frame.words[i] = wire::little<std::int16_t>(packet.data, 2 + 2 * i);

@@ -66,7 +66,7 @@ class Xsens : public Decoder {
 
     /// Other messages are answers to somebody's commands.
     void message(const Frame& frame, MeasurementSink& sink) {
-        sink.frame();
+        sink.frame(frame.bytes);
         const auto data = frame.bytes[2] == xbus::mtdata2 ? parse_message(frame.bytes) : std::nullopt;
         if (!data) return;
         const Timestamp time = time_of(*data, frame.begun);

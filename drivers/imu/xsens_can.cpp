@@ -47,7 +47,7 @@ class XsensCan : public Decoder {
         const auto length = length_of(packet.can_id);
         if (!length) return;
         if (packet.data.size() != *length) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(packet.data);
         if (packet.can_id == id::sample_time || packet.can_id == id::group_counter)
             begin(packet, sink);
         else

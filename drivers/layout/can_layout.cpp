@@ -48,7 +48,7 @@ class CanLayout : public Decoder {
             if (wanted(signals_[i]) && is_there(signals_[i], multiplexor)) take(i, packet, whole, possible);
         if (!whole) return sink.refuse(Refusal::malformed);
         if (!possible) return sink.refuse(Refusal::out_of_range);
-        sink.frame();
+        sink.frame(packet.data);
         assembly_.emit(packet.time, 0, sink);
     }
 

@@ -43,7 +43,7 @@ class SerialLayout : public Decoder {
         const auto begin = static_cast<std::size_t>(settings_.element_begin_byte);
         const auto size = static_cast<std::size_t>(settings_.element_bytes);
         if (begin + count * size > frame.bytes.size()) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(frame.bytes);
         for (std::size_t k = 0; k < std::max<std::size_t>(count, size == 0); ++k) {
             read(frame.bytes, false);
             if (size > 0) read(frame.bytes.subspan(begin + k * size, size), true);

@@ -67,7 +67,7 @@ class Hm10 : public Decoder {
         if (period <= Duration::zero() || now < next_scan_) return std::nullopt;
         next_scan_ = now + period;
         Packet packet;
-        packet.data = {reinterpret_cast<const std::uint8_t*>(scan.data()), scan.size()};
+        packet.data = wire::bytes_of(scan);
         return packet;
     }
 
@@ -75,7 +75,7 @@ class Hm10 : public Decoder {
     static constexpr std::string_view scan = "AT+DISI?";
 
     void take(const Frame& frame, MeasurementSink& sink) const {
-        sink.frame();
+        sink.frame(frame.bytes);
         if (frame.bytes.size() != record_size) return;
         const std::string_view record = text_of(frame.bytes);
         SignalStrength strength;

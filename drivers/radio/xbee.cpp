@@ -81,7 +81,7 @@ class Xbee : public Decoder {
         const Plain plain = plain_of(frame.bytes, settings_.escaped);
         const auto parsed = parse_xbee({plain.bytes.data() + 3, plain.size - around_data});
         if (!parsed) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(frame.bytes);
         if (parsed->source && parsed->rssi_dbm) return tell(frame.begun, *parsed->source, *parsed->rssi_dbm, sink);
         if (parsed->source) {
             awaited_ = Awaited{frame.begun, *parsed->source};

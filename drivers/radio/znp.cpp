@@ -38,7 +38,7 @@ class Znp : public Decoder {
 
   private:
     void take(const Frame& frame, MeasurementSink& sink) const {
-        sink.frame();
+        sink.frame(frame.bytes);
         const auto incoming = parse_znp_incoming(frame.bytes);
         if (!incoming) return;
         SignalStrength strength;

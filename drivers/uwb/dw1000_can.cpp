@@ -63,7 +63,7 @@ class Dw1000Can : public Decoder {
         const std::uint64_t word = can_word(packet.data);
         if (packet.data.size() != 8 || layout::line_of_sight.read(word) > last_line_of_sight)
             return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(packet.data);
         if (kind == layout::range)
             range(word, packet.time, sink);
         else

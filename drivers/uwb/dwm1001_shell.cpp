@@ -3,6 +3,7 @@
 
 #include "drivers/line_decoder.h"
 #include "drivers/uwb/limits.h"
+#include "drivers/wire/bytes.h"
 
 #include <algorithm>
 
@@ -60,7 +61,7 @@ class Shell : public LineDecoder {
         const std::string_view text = waker_.due(now);
         if (text.empty()) return std::nullopt;
         Packet packet;
-        packet.data = {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+        packet.data = wire::bytes_of(text);
         return packet;
     }
 
@@ -71,7 +72,7 @@ class Shell : public LineDecoder {
         const auto line = parse_shell_line(text);
         if (!line) return sink.refuse(Refusal::malformed);
         waker_.heard();
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         for (const Distance& distance : line->distances) range(distance, begun, sink);
     }
 

@@ -53,9 +53,9 @@ class Tlv : public Decoder {
     /// Half an answer, whose rest will not come. A position without distances has no other end than this.
     void flush(MeasurementSink& sink) {
         flush_ = false;
-        if (frames_.waiting() == dwm1001::position_reply_size)
-            sink.frame();
-        else if (frames_.waiting() > 0)
+        if (frames_.waiting().size() == dwm1001::position_reply_size)
+            sink.frame(frames_.waiting());
+        else if (!frames_.waiting().empty())
             sink.refuse(Refusal::malformed);
         frames_.reset();
     }
@@ -64,7 +64,7 @@ class Tlv : public Decoder {
         answered_ = true;
         const auto reply = parse_tlv_reply(frame.bytes);
         if (!reply) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(frame.bytes);
         for (const TlvDistance& distance : reply->distances) range(reply->from, distance, frame.begun, sink);
     }
 

@@ -2,6 +2,7 @@
 #include "drivers/uwb/listener_json.h"
 
 #include "drivers/line_decoder.h"
+#include "drivers/wire/bytes.h"
 #include "drivers/wire/json_scan.h"
 #include "drivers/wire/text.h"
 
@@ -71,7 +72,7 @@ class ListenerJson : public LineDecoder {
     void line(std::string_view text, Timestamp begun, MeasurementSink& sink) override {
         const auto report = parse_listener_report(text);
         if (!report) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         const std::span<const std::uint8_t> frame{report->frame.data(), report->frame.size()};
         if (const auto blink = ieee802154::parse_blink(frame)) sink.accept(begun, arrival(*report, *blink));
         const auto sync = ieee802154::parse_clock_calibration(frame);

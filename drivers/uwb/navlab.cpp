@@ -2,6 +2,7 @@
 #include "drivers/uwb/navlab.h"
 
 #include "drivers/line_decoder.h"
+#include "drivers/wire/bytes.h"
 #include "drivers/wire/text.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ class Navlab : public LineDecoder {
     void line(std::string_view text, Timestamp begun, MeasurementSink& sink) override {
         const auto said = parse_navlab_range(text);
         if (!said) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         Range range;
         range.anchor = address(said->anchor);
         range.tag = address(said->tag);

@@ -114,7 +114,7 @@ class Nlink : public Decoder {
     void give(const Frame& frame, MeasurementSink& sink) const {
         const auto message = parse(frame.bytes);
         if (!message) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(frame.bytes);
         std::visit(Give{settings_, frame.begun, sink}, *message);
     }
 };

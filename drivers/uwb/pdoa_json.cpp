@@ -3,6 +3,7 @@
 
 #include "drivers/line_decoder.h"
 #include "drivers/uwb/limits.h"
+#include "drivers/wire/bytes.h"
 #include "drivers/wire/json_scan.h"
 #include "drivers/wire/text.h"
 
@@ -76,7 +77,7 @@ class PdoaJson : public LineDecoder {
         PdoaReport report;
         const PdoaLine kind = parse_pdoa_line(text, report);
         if (kind == PdoaLine::damaged) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         if (kind == PdoaLine::report) range(report, begun, sink);
     }
 

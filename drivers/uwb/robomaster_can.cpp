@@ -24,7 +24,7 @@ class RobomasterCan : public Decoder {
         std::copy(packet.data.begin(), packet.data.end(), record_.begin() + static_cast<std::ptrdiff_t>(8 * part_));
         if (++part_ < frame_sizes.size()) return;
         part_ = 0;
-        sink.frame();
+        sink.frame(record_);
         ranges(sink);
     }
 

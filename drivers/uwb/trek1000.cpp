@@ -2,6 +2,7 @@
 #include "drivers/uwb/trek1000.h"
 
 #include "drivers/line_splitter.h"
+#include "drivers/wire/bytes.h"
 
 #include <algorithm>
 #include <charconv>
@@ -82,12 +83,12 @@ class Trek1000 : public Decoder {
 
     void report(std::string_view text, Timestamp complete, MeasurementSink& sink) const {
         const std::string_view kind = text.substr(0, text.find(' '));
-        if (is_kind(kind, 'e')) return sink.frame(); // event counters of a debug build
+        if (is_kind(kind, 'e')) return sink.frame(wire::bytes_of(text)); // event counters of a debug build
         if (!is_kind(kind, 'c') && !is_kind(kind, 'r') && !is_kind(kind, 'a'))
             return sink.refuse(kind.size() == 2 ? Refusal::unknown_type : Refusal::garbage);
         const auto report = parse_trek_report(text);
         if (!report) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(wire::bytes_of(text));
         if (report->kind == 'c') ranges(*report, complete, sink);
     }
 

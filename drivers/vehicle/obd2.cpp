@@ -18,7 +18,7 @@ class Obd2 : public Decoder {
         if (data.size() < 4 || data[0] > 7) return sink.refuse(Refusal::malformed);
         if (data[0] < 3 || data[1] == negative_answer || data[1] != (positive_answer | current_data))
             return sink.refuse(Refusal::unknown_type);
-        sink.frame();
+        sink.frame(packet.data);
         tell(static_cast<Pid>(data[2]), data[3], packet.time, sink);
     }
 

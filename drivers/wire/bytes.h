@@ -7,12 +7,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace locus::wire {
 
 using Bytes = std::span<const std::uint8_t>;
+
+/// The characters as bytes.
+inline Bytes bytes_of(std::string_view text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 namespace detail {
 template <std::size_t size>

@@ -21,9 +21,7 @@ std::uint8_t xor8(Bytes bytes) {
                            [](std::uint8_t sum, std::uint8_t byte) { return static_cast<std::uint8_t>(sum ^ byte); });
 }
 
-std::uint8_t xor8(std::string_view text) {
-    return xor8(Bytes{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
+std::uint8_t xor8(std::string_view text) { return xor8(bytes_of(text)); }
 
 std::uint16_t sum16_big(Bytes bytes) {
     unsigned sum = 0;

@@ -65,7 +65,7 @@ class FrameStream {
     void reset() { size_ = 0, in_garbage_ = false; }
 
     /// Bytes of a frame that is not whole yet.
-    std::size_t waiting() const { return size_; }
+    std::span<const std::uint8_t> waiting() const { return {buffer_.data(), size_}; }
 
   private:
     /// A head that waits so long for its rest was none: no line sends half a frame and then pauses.

@@ -18,7 +18,7 @@ struct CountingSink : MeasurementSink {
         benchmark::DoNotOptimize(&observation);
         ++measurements;
     }
-    void frame() override { ++frames; }
+    void frame(std::span<const std::uint8_t> /*bytes*/) override { ++frames; }
     void refuse(Refusal) override { ++refusals; }
 };
 

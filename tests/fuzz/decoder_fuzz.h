@@ -22,7 +22,7 @@ struct Result : MeasurementSink {
         if (!from_json_line(line, error)) std::abort(); // left out because it is not finite
         lines.push_back(line);
     }
-    void frame() override { ++frames; }
+    void frame(std::span<const std::uint8_t> /*bytes*/) override { ++frames; }
     void refuse(Refusal reason) override {
         if (reason >= Refusal::count_) std::abort();
         ++refusals;

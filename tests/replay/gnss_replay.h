@@ -24,7 +24,7 @@ struct Replay : MeasurementSink {
         if (const auto* raw = std::get_if<GnssRaw>(&observation)) add(*raw);
         if (const auto* navigation = std::get_if<GnssNavigation>(&observation)) add(*navigation);
     }
-    void frame() override { ++frames; }
+    void frame(std::span<const std::uint8_t> /*bytes*/) override { ++frames; }
     void refuse(Refusal reason) override { ++refused[static_cast<std::size_t>(reason)]; }
 
     GpsTime now{2381, 408600}; ///< of the last epoch

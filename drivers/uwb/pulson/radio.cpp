@@ -64,7 +64,7 @@ void Radio::message(wire::Bytes bytes, Timestamp time, MeasurementSink& sink) {
     }
     const auto rule = length_rule(type);
     if (!rule) return sink.refuse(Refusal::unknown_type);
-    rule->allows(bytes) ? sink.frame() : sink.refuse(Refusal::malformed);
+    rule->allows(bytes) ? sink.frame(bytes) : sink.refuse(Refusal::malformed);
 }
 
 void Radio::reset() {
@@ -77,7 +77,7 @@ template <class Message>
 void Radio::read(wire::Bytes bytes, Timestamp time, MeasurementSink& sink) {
     const auto message = parse<Message>(bytes);
     if (!message) return sink.refuse(Refusal::malformed);
-    sink.frame();
+    sink.frame(bytes);
     use(*message, time, sink);
 }
 

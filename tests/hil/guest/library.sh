@@ -5,7 +5,8 @@ within() { # within SECONDS COMMAND...: tries until it holds
   until "$@"; do [ $SECONDS -lt $until ] || { echo "not within the time: $*"; return 1; }; sleep 0.3; done
 }
 
-plug_usb_serial() { insmod /rig/g_serial.ko && within 20 usb_serial_is_there; }
+# It says that it were what a TREK1000 has.
+plug_usb_serial() { insmod /rig/g_serial.ko idVendor=0x0483 idProduct=0x5740 iSerialNumber=RIG01 && within 20 usb_serial_is_there; }
 unplug_usb_serial() { rmmod g_serial; }
 usb_serial_is_there() { [ -n "$(usb_serial)" ] && [ -c /dev/ttyGS0 ]; }
 usb_serial() { ls /dev/serial/by-id/* 2>/dev/null | head -1; }

@@ -92,7 +92,7 @@ TEST(Answers, EachIsOneLineOfItsClass) {
     const Roster roster = some_roster();
     for (const auto& [line, name] : {std::pair{version_line(roster), "VERSION"},
                                      {watch_line({}), "WATCH"},
-                                     {sources_line(picture, roster, {}), "SOURCES"},
+                                     {sources_line(picture, roster, {}, {}), "SOURCES"},
                                      {targets_line(picture, roster, {}), "TARGETS"},
                                      {status_line(picture, roster, 1, {}), "STATUS"},
                                      {poll_lines(picture, roster), "POLL"},
@@ -110,7 +110,7 @@ TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
     status.last_verdict.reason = Exclusion::innovation_too_large;
     status.last_verdict.innovation = 2.5F;
     picture.take(SourceItem{1, 0, 1, status});
-    const json source = json::parse(sources_line(picture, some_roster(), {}))["sources"][0];
+    const json source = json::parse(sources_line(picture, some_roster(), {}, {}))["sources"][0];
     EXPECT_EQ(source["name"], "door");
     EXPECT_EQ(source["address"], "0x3");
     EXPECT_EQ(source["used"], false);
@@ -119,6 +119,49 @@ TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
     EXPECT_DOUBLE_EQ(source["innovation"], 2.5);
     EXPECT_FALSE(source.contains("test_ratio"));
     EXPECT_FALSE(source.contains("age_s"));
+}
+
+TEST(Answers, InputSaysItsRatesAndItsLastError) {
+    auto status = std::make_shared<InputStatus>();
+    status->state = InputState::open;
+    status->resyncs = 3;
+    Roster roster = some_roster();
+    roster.inputs = {{"uwb", "serial", "trek1000", status}, {"off", "serial", "trek1000", nullptr}};
+    InputRates rates;
+    const auto input = [&](double now_s) {
+        const Timestamp now = Timestamp{} + duration_from_s(now_s);
+        return json::parse(sources_line({}, roster, rates, now))["inputs"][0];
+    };
+    rates.watch(roster.inputs, Timestamp{} + duration_from_s(100));
+    EXPECT_FALSE(input(100.5).contains("bytes_per_s")) << "half a second says little";
+    EXPECT_FALSE(input(100.5).contains("last_error"));
+    status->bytes = 400, status->frames = 40, status->measurements = 120, status->packets = 20;
+    status->last_error.set("it fell off");
+    status->last_error_ns = 101'000'000'000;
+    EXPECT_EQ(input(104)["bytes_per_s"], 100.0);
+    EXPECT_EQ(input(104)["packets_per_s"], 5.0);
+    EXPECT_EQ(input(104)["frames_per_s"], 10.0);
+    EXPECT_EQ(input(104)["measurements_per_s"], 30.0);
+    EXPECT_EQ(input(104)["resyncs"], 3);
+    EXPECT_EQ(input(104)["error"], "");
+    EXPECT_EQ(input(104)["last_error"], "it fell off");
+    EXPECT_EQ(input(104)["last_error_age_s"], 3.0);
+}
+
+TEST(InputRates, LooksBackSomeSecondsAndForgetsInputsThatAreNoMore) {
+    auto status = std::make_shared<InputStatus>();
+    const std::vector<InputEntry> inputs{{"uwb", "serial", "trek1000", status}};
+    InputRates rates;
+    const auto at = [](double s) { return Timestamp{} + duration_from_s(s); };
+    for (int ms = 0; ms <= 20'000; ms += 100) {
+        if (ms == 10'000) status->frames = 1000;
+        rates.watch(inputs, at(ms * 1e-3));
+    }
+    EXPECT_EQ(rates.rate(*status, at(20.5)).value().frames, 0) << "the burst is long ago";
+    status->frames = 1045;
+    EXPECT_EQ(rates.rate(*status, at(20.5)).value().frames, 10) << "45 since second 16";
+    rates.watch({}, at(30));
+    EXPECT_FALSE(rates.rate(*status, at(31)));
 }
 
 TEST(Answers, PollGivesTheNewestPoseOfEveryTargetThatHasOne) {

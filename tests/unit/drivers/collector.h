@@ -18,7 +18,7 @@ struct Collector : MeasurementSink {
     int frames = 0;
 
     void accept(Timestamp time, const Observation& observation) override { items.push_back({time, observation}); }
-    void frame() override { ++frames; }
+    void frame(std::span<const std::uint8_t> /*bytes*/) override { ++frames; }
     void refuse(Refusal reason) override { refusals.push_back(reason); }
 
     template <class Kind>

@@ -61,7 +61,7 @@ class ByteDecoder : public Decoder {
                 sink.refuse(Refusal::malformed);
                 continue;
             }
-            sink.frame();
+            sink.frame({&byte, 1});
             sink.accept(packet.time, Range{.range_m = double(byte)});
         }
     }
@@ -123,6 +123,24 @@ TEST_F(InputTest, CountsWhatHappened) {
     EXPECT_EQ(status.refused[std::size_t(Refusal::malformed)], 1u);
     EXPECT_EQ(status.last_packet_ns, 1'000'000'000);
     EXPECT_EQ(status.state, InputState::ended);
+}
+
+TEST_F(InputTest, ARunOfDamageIsOneResynchronisation) {
+    Input input = make({}, {{.bytes = {255, 255, 1, 2}},
+                            {.bytes = {255, 255, 255, 3}},
+                            {.read = ReadStatus::lost, .error = "unplugged"},
+                            {.bytes = {255, 4, 255}}});
+    input.run({});
+    EXPECT_EQ(input.status().resyncs, 2u) << "neither the first bytes nor those after an opening can be lost";
+}
+
+TEST_F(InputTest, RemembersWhatWentWrongLast) {
+    Input input = make({}, {{.read = ReadStatus::lost, .error = "unplugged"}, {.bytes = {2}}});
+    EXPECT_EQ(input.status().last_error_ns, 0);
+    input.run({});
+    EXPECT_EQ(input.status().trouble.get(), "");
+    EXPECT_EQ(input.status().last_error.get(), "unplugged");
+    EXPECT_GT(input.status().last_error_ns, 0);
 }
 
 TEST_F(InputTest, OpensAgainAfterALossAndForgetsHalfFrames) {

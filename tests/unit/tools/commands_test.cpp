@@ -14,7 +14,7 @@ constexpr const char* sources_line =
     R"({"class":"SOURCES","sources":[)"
     R"({"kind":"anchor","name":"north","address":"0x1","input":"uwb","used":true,"reason":"used","sentence":"used","observation":4.125,"innovation":0.031,"innovation_sigma":0.12,"test_ratio":0.1,"rate_hz":9.96,"age_s":0.012,"counters":{"received":200,"used":150,"refused":50,"late":0}},)"
     R"({"kind":"anchor","address":"0x2","used":false,"reason":"innovation_too_large","sentence":"disagrees with the other sources by more than chance allows","rate_hz":9.8,"test_ratio":1.7}],)"
-    R"("inputs":[{"name":"uwb","transport":"serial","decoder":"trek1000","state":"waiting","error":"/dev/ttyACM0 is not there","bytes":10,"packets":5,"frames":4,"measurements":16,"refused":{"malformed":3},"reconnects":1,"ring_dropped":2,"kernel_dropped":1,"age_s":3.0}]})"
+    R"("inputs":[{"name":"uwb","transport":"serial","decoder":"trek1000","state":"waiting","error":"/dev/ttyACM0 is not there","bytes":10,"packets":5,"frames":4,"measurements":16,"refused":{"malformed":3},"resyncs":6,"reconnects":1,"ring_dropped":2,"kernel_dropped":1,"age_s":3.0,"bytes_per_s":51.2,"frames_per_s":2.5,"measurements_per_s":10,"last_error":"x","last_error_age_s":1},{"name":"yard","state":"open","error":"","last_error":"it fell off","last_error_age_s":75}]})"
     "\n";
 constexpr const char* targets_line =
     R"({"class":"TARGETS","targets":[)"
@@ -41,7 +41,7 @@ TEST(Status, SaysThatItWorksOnOneScreen) {
     const auto result = run_client({"status", "--socket", daemon.path()});
     EXPECT_EQ(result.exit_code, exit_yes);
     EXPECT_THAT(result.out, HasSubstr("locusd 0.1.0, site hall: working\n"));
-    EXPECT_THAT(result.out, HasSubstr("0 of 1 open"));
+    EXPECT_THAT(result.out, HasSubstr("1 of 2 open"));
     EXPECT_THAT(result.out, HasSubstr("1 of 2 used"));
     EXPECT_THAT(result.out, HasSubstr("1 of 2 have a position"));
     EXPECT_THAT(result.out, HasSubstr("3 h 12 min"));
@@ -70,9 +70,11 @@ TEST(Sources, ShowEachSourceWithItsSentenceAndEachInputWithItsError) {
     EXPECT_THAT(result.out,
                 testing::ContainsRegex("north +anchor +10\\.0 +12 ms +4\\.12 +0\\.03 +0\\.12 +0\\.10 +75 +used"));
     EXPECT_THAT(result.out, testing::ContainsRegex("0x2 +anchor .* 1\\.70 .*disagrees with the other sources"));
-    EXPECT_THAT(result.out, testing::ContainsRegex("uwb +serial +trek1000 +waiting +3\\.0 s +5 +4 +16 +3 +3 +1\n"));
+    EXPECT_THAT(result.out,
+                testing::ContainsRegex("uwb +serial +trek1000 +waiting +3\\.0 s +51 +2\\.5 +10\\.0 +4 +3 +6 +3 +1\n"));
     EXPECT_THAT(result.out, HasSubstr("  uwb: /dev/ttyACM0 is not there\n"));
     EXPECT_THAT(result.out, HasSubstr("  uwb: 3 refused as malformed\n"));
+    EXPECT_THAT(result.out, HasSubstr("  yard: well again; 1 min 15 s ago: it fell off\n"));
 }
 
 TEST(Sources, OneThatFellSilentIsNotInUse) {

@@ -1,5 +1,9 @@
 # Cables are pulled and buses go down; the daemon stays and comes back to them by itself.
 
+check_29_usb_has_a_name_that_stays() {
+  [ /dev/locus/stm32-RIG01 -ef "$(usb_serial)" ] && [ "$(stat -Lc %G /dev/locus/stm32-RIG01)" = dialout ]
+}
+
 check_30_usb_unplug_is_noticed() {
   stop_serial_feed
   unplug_usb_serial
