@@ -51,12 +51,12 @@ class Cc2531 : public Decoder {
 
   private:
     void take(const Frame& frame, MeasurementSink& sink) const {
-        if (frame.bytes[0] == tick_record) return sink.frame();
+        if (frame.bytes[0] == tick_record) return sink.frame(frame.bytes);
         const Cc2531Record record = parse_cc2531(frame.bytes);
         if (!record.crc_good) return sink.refuse(Refusal::bad_checksum);
         const auto header = parse_mac_header(record.frame);
         if (!header) return sink.refuse(Refusal::unknown_type);
-        sink.frame();
+        sink.frame(frame.bytes);
         if (!header->source) return; // an acknowledgement does not say whose it is
         SignalStrength strength;
         strength.transmitter = address(header->source->address);

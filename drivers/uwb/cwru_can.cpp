@@ -24,7 +24,7 @@ class CwruCan : public Decoder {
     void decode(const Packet& packet, MeasurementSink& sink) override {
         if (packet.can_id != static_cast<std::uint32_t>(settings_.node)) return; // a question has its RTR bit set
         if (!has_known_length(packet)) return sink.refuse(Refusal::malformed);
-        sink.frame();
+        sink.frame(packet.data);
         const auto distance = parse_cwru(packet.data);
         if (!distance) return;
         // Written so that a NaN is refused as well.

@@ -68,7 +68,7 @@ class LocoSniffer : public Decoder {
         if (!sniffed) return sink.refuse(Refusal::malformed);
         const auto payload = loco::parse(sniffed->payload);
         if (!payload) return sink.refuse(Refusal::unknown_type);
-        sink.frame();
+        sink.frame(frame.bytes);
         const Timestamp time = clock_.host_time(sniffed->rx_ticks, frame.begun);
         auto difference = differences_.hear(sniffed->from, sniffed->rx_ticks, *payload);
         if (!difference) return;
