@@ -13,6 +13,7 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/uwb/apps_json.h"
 #include "drivers/uwb/cwru_can.h"
 #include "drivers/uwb/dw1000_can.h"
 #include "drivers/uwb/dwm1001_shell.h"
@@ -54,6 +55,8 @@ constexpr std::array decoder_rows{
                option_table<uwb::NavlabSettings>({}), uwb::make_navlab},
     DecoderRow{"listener_json", "Decawave's listener: blinks and clock-calibration packets with their times",
                Wire::bytes, option_table<uwb::ListenerSettings>(uwb::listener_options), uwb::make_listener_json},
+    DecoderRow{"apps_json", "Decawave's uwb-apps: ranges and range differences as JSON lines", Wire::bytes,
+               option_table<uwb::AppsSettings>(uwb::apps_options), uwb::make_apps_json},
     DecoderRow{"loco_sniffer", "Bitcraze Loco node as a sniffer: range differences from TDoA2 and TDoA3", Wire::bytes,
                option_table<uwb::LocoSnifferSettings>(uwb::loco_sniffer_options), uwb::make_loco_sniffer},
     DecoderRow{"xbee", "Digi XBee in API mode: signal strength of other radios", Wire::bytes,

@@ -34,13 +34,6 @@ void read_power(const JsonValue& value, float& power_dbm) {
     if (read && std::isfinite(*read) && *read < 0) power_dbm = *read;
 }
 
-template <class Number>
-bool read_number(const JsonValue& value, Number& number) {
-    const auto read = value.first().number<Number>();
-    if (read) number = *read;
-    return read.has_value();
-}
-
 /// What must be there.
 struct Seen {
     bool ticks = false;
@@ -53,9 +46,9 @@ struct Seen {
 bool read_member(const JsonMember& member, ListenerReport& report, Seen& seen) {
     const auto& [name, value] = member;
     if (name == "ts")
-        return seen.ticks = read_number(value, report.received_ticks) && report.received_ticks <= clock_mask;
-    if (name == "utime") return read_number(value, report.clock_us);
-    if (name == "dlen") return read_number(value, seen.length.emplace());
+        return seen.ticks = value.first().read(report.received_ticks) && report.received_ticks <= clock_mask;
+    if (name == "utime") return value.first().read(report.clock_us);
+    if (name == "dlen") return value.first().read(seen.length.emplace());
     if (name == "rssi" || name == "rssi0") read_power(value, report.rx_power_dbm);
     if (name == "fppl" || name == "fppl0") read_power(value, report.first_path_power_dbm);
     if (name != "d") return true;

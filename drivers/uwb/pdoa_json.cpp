@@ -28,13 +28,6 @@ std::string_view counted_json(std::string_view line) {
     return line.substr(6);
 }
 
-template <class Number>
-bool take(const JsonValue& value, Number& number) {
-    const auto read = value.number<Number>();
-    if (read) number = *read;
-    return read.has_value();
-}
-
 bool take_tag(const JsonValue& value, std::uint16_t& tag) {
     wire::Text text{value.text};
     return value.kind == JsonValue::Kind::string && text.hex(4, tag) && text.done();
@@ -44,16 +37,16 @@ bool take_tag(const JsonValue& value, std::uint16_t& tag) {
 bool take_member(const JsonMember& member, PdoaReport& report) {
     const auto& [name, value] = member;
     if (name == "a16") return take_tag(value, report.tag);
-    if (name == "R") return take(value, report.sequence);
-    if (name == "T") return take(value, report.slot_time);
-    if (name == "D") return take(value, report.distance_cm);
-    if (name == "P") return take(value, report.phase_difference);
-    if (name == "Xcm") return take(value, report.x_cm);
-    if (name == "Ycm") return take(value, report.y_cm);
-    if (name == "O") return take(value, report.clock_offset_hundredth_ppm);
-    if (name == "V") return take(value, report.flags);
+    if (name == "R") return value.read(report.sequence);
+    if (name == "T") return value.read(report.slot_time);
+    if (name == "D") return value.read(report.distance_cm);
+    if (name == "P") return value.read(report.phase_difference);
+    if (name == "Xcm") return value.read(report.x_cm);
+    if (name == "Ycm") return value.read(report.y_cm);
+    if (name == "O") return value.read(report.clock_offset_hundredth_ppm);
+    if (name == "V") return value.read(report.flags);
     if (name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z')
-        return take(value, report.acceleration_mg[static_cast<std::size_t>(name[0] - 'X')]);
+        return value.read(report.acceleration_mg[static_cast<std::size_t>(name[0] - 'X')]);
     return true;
 }
 

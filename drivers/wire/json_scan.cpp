@@ -90,9 +90,7 @@ class Scan {
 JsonValue JsonValue::first() const {
     if (kind != Kind::list) return *this;
     JsonValue value;
-    std::size_t at = 1;
-    if (!Scan{text, at}.value(value, JsonObject::deepest)) return {};
-    return value;
+    return JsonList{*this}.next(value) ? value : JsonValue{};
 }
 
 JsonObject::JsonObject(std::string_view text) : text_(text) { good_ = Scan{text_, at_}.character('{'); }
@@ -109,6 +107,13 @@ bool JsonObject::next(JsonMember& member) {
             scan.value(member.value, deepest);
     first_ = false;
     return good_;
+}
+
+bool JsonList::next(JsonValue& value) {
+    Scan scan{inside_, at_};
+    const bool good = (first_ || scan.character(',')) && scan.value(value, JsonObject::deepest);
+    first_ = false;
+    return good;
 }
 
 } // namespace locus::wire

@@ -24,6 +24,13 @@ struct JsonValue {
         if (error != std::errc{} || end != text.end()) return std::nullopt;
         return value;
     }
+    /// Whether it is one; else `into` stays as it was.
+    template <class Number>
+    bool read(Number& into) const {
+        const auto value = number<Number>();
+        if (value) into = *value;
+        return value.has_value();
+    }
     /// The first value of a list; of anything else, itself.
     JsonValue first() const;
 };
@@ -50,6 +57,21 @@ class JsonObject {
     bool first_ = true;
     bool good_ = false;
     bool closed_ = false;
+};
+
+/// The values of a list that stood in an object: what a JsonObject gave is good as it is.
+class JsonList {
+  public:
+    explicit JsonList(const JsonValue& list)
+        : inside_(list.kind == JsonValue::Kind::list ? list.text.substr(1, list.text.size() - 2) : "") {}
+
+    /// The next value. False after the last.
+    bool next(JsonValue& value);
+
+  private:
+    std::string_view inside_;
+    std::size_t at_ = 0;
+    bool first_ = true;
 };
 
 } // namespace locus::wire

@@ -6,6 +6,7 @@
 
 namespace locus::examples {
 
+std::vector<DecoderExample> apps_json();
 std::vector<DecoderExample> cwru_can();
 std::vector<DecoderExample> dw1000_can();
 std::vector<DecoderExample> dwm1001();
@@ -29,9 +30,9 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{cwru_can,   dw1000_can, dwm1001, epson_g370, layouts,   listener_json, loco_sniffer,
-                              navlab,     nlink,      nmea,    obd2,       pdoa_json, pulson,        radio,
-                              robomaster, trek1000,   ubx,     vectornav,  witmotion, xsens};
+constexpr std::array families{apps_json,    cwru_can,   dw1000_can, dwm1001, epson_g370, layouts,   listener_json,
+                              loco_sniffer, navlab,     nlink,      nmea,    obd2,       pdoa_json, pulson,
+                              radio,        robomaster, trek1000,   ubx,     vectornav,  witmotion, xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

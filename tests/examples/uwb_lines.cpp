@@ -1,3 +1,4 @@
+#include "drivers/uwb/apps_json.h"
 #include "drivers/uwb/listener_json.h"
 #include "drivers/uwb/navlab.h"
 #include "drivers/uwb/pdoa_json.h"
@@ -33,6 +34,23 @@ uwb::ListenerReport listened(unsigned i) {
 }
 
 } // namespace
+
+std::vector<DecoderExample> apps_json() {
+    DecoderExample example{"apps_json"};
+    for (unsigned i = 0; i < 20; ++i) {
+        uwb::apps::Ranges one{0x55a6, {}, unknown_f, {}}, many;
+        one.items.push_back({0xd22d, 1.071 + i});
+        for (unsigned k = 0; k < 7; ++k) many.items.push_back({0x1946 + k, 8.088 + i});
+        uwb::apps::Differences differences{0x499b, 0x492, {}, 102072};
+        differences.items.push_back({0x533, 0.698 + i});
+        for (const std::string& line : {encode(one), encode(many), encode(differences)})
+            example.chunks.push_back(chunk(line));
+    }
+    example.lines = true;
+    example.checksum = false;
+    example.settings = std::make_shared<uwb::AppsSettings>(uwb::AppsSettings{address(9), false});
+    return {example};
+}
 
 std::vector<DecoderExample> listener_json() { return lines("listener_json", listened); }
 

@@ -49,6 +49,18 @@ TEST(JsonScan, ReadsNumbersAlsoInQuotesAndTheFirstOfAList) {
     EXPECT_FALSE(members[6].value.first().number<int>());
 }
 
+TEST(JsonScan, WalksThroughLists) {
+    const auto members = scan(R"({"a":[1, "2" ,[3,4], {"b":5}],"c":[],"d":[ ],"e":6})").members;
+    const auto items = [](const JsonValue& value) {
+        std::vector<std::string_view> texts;
+        JsonList list{value};
+        for (JsonValue item; list.next(item);) texts.push_back(item.text);
+        return texts;
+    };
+    EXPECT_EQ(items(members[0].value), (std::vector<std::string_view>{"1", "2", "[3,4]", R"({"b":5})"}));
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(items(members[i].value).empty()) << i;
+}
+
 TEST(JsonScan, WhatIsNoObjectIsNotWhole) {
     for (const std::string_view text :
          {"", "[1]", "{", R"({"a"})", R"({"a":})", R"({"a":1,})", R"({,"a":1})", R"({"a":1 "b":2})", R"({"a":1}})",
