@@ -37,7 +37,11 @@ TEST(Znp, ReadsWhatThePacketSays) {
 }
 
 TEST(Znp, OtherCommandsAreFramesAndAWrongChecksumIsNone) {
-    EXPECT_EQ(hear_znp(from_hex("FE 03 61 08 00 01 55 3E FE 02 61 03 06 01 67")).frames, 2);
+    EXPECT_EQ(
+        hear_znp(from_hex("FE 03 61 08 00 01 55 3E FE 02 61 03 06 01 67 FE 0E 61 02 02 00 02 06 03 D9 14 34 01 02 "
+                          "00 00 00 00 92"))
+            .frames,
+        3);
     const auto sink = hear_znp(from_hex("FE 03 61 08 00 01 55 3F"));
     EXPECT_EQ(sink.frames, 0);
     EXPECT_EQ(sink.refusals.at(0), Refusal::bad_checksum);
