@@ -2,9 +2,9 @@
 #include "drivers/imu/epson_g370.h"
 
 #include "drivers/device_clock.h"
+#include "drivers/frame_decoder.h"
 #include "drivers/imu/epson_start.h"
 #include "drivers/wire/checksum.h"
-#include "drivers/wire/frame_stream.h"
 
 #include <charconv>
 
@@ -52,19 +52,14 @@ Vec3 in_units(const std::array<std::int32_t, 3>& raw, double step) {
     return {raw[0] * step, raw[1] * step, raw[2] * step};
 }
 
-class EpsonG370 : public Decoder {
+class EpsonG370 : public FrameDecoder<EpsonFormat> {
   public:
     explicit EpsonG370(const EpsonSettings& settings)
-        : settings_(settings), stream_(EpsonFormat{epson_burst_length(settings)}), mounting_(settings),
+        : FrameDecoder(EpsonFormat{epson_burst_length(settings)}), settings_(settings), mounting_(settings),
           scale_(scale_of(settings)), clock_(1 / rate_of(settings), 16), start_(settings) {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        stream_.feed(
-            packet, [&](const Frame& frame) { burst(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        stream_.reset();
+        FrameDecoder::reset();
         clock_.reset();
         start_.reset();
     }
@@ -75,13 +70,12 @@ class EpsonG370 : public Decoder {
 
   private:
     EpsonSettings settings_;
-    FrameStream<EpsonFormat> stream_;
     Mounting mounting_;
     EpsonScale scale_;
     DeviceClock clock_;
     EpsonStart start_;
 
-    void burst(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         sink.frame(frame.bytes);
         start_.heard_burst();
         const EpsonBurst burst = parse_epson_burst(frame.bytes, settings_);

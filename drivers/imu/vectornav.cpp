@@ -2,8 +2,8 @@
 #include "drivers/imu/vectornav.h"
 
 #include "drivers/device_clock.h"
+#include "drivers/frame_decoder.h"
 #include "drivers/wire/checksum.h"
-#include "drivers/wire/frame_stream.h"
 
 #include <algorithm>
 
@@ -52,26 +52,20 @@ struct VectorNavFormat {
     }
 };
 
-class VectorNav : public Decoder {
+class VectorNav : public FrameDecoder<VectorNavFormat> {
   public:
     explicit VectorNav(const VectorNavSettings& settings) : mounting_(settings) {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        stream_.feed(
-            packet, [&](const Frame& frame) { message(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        stream_.reset();
+        FrameDecoder::reset();
         clock_.reset();
     }
 
   private:
-    FrameStream<VectorNavFormat> stream_;
     Mounting mounting_;
     DeviceClock clock_{1e-9, 64}; // TimeStartup
 
-    void message(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         sink.frame(frame.bytes);
         const bool is_binary = frame.bytes[0] == vectornav_head;
         const VectorNavData data =

@@ -2,8 +2,8 @@
 #include "drivers/imu/xsens.h"
 
 #include "drivers/device_clock.h"
+#include "drivers/frame_decoder.h"
 #include "drivers/wire/checksum.h"
-#include "drivers/wire/frame_stream.h"
 
 namespace locus::imu {
 namespace {
@@ -40,32 +40,26 @@ struct XbusFormat {
     }
 };
 
-class Xsens : public Decoder {
+class Xsens : public FrameDecoder<XbusFormat> {
   public:
     explicit Xsens(const XsensSettings& settings)
         : mounting_(settings), packet_rate_hz_(settings.packet_rate_hz),
           counter_(packet_rate_hz_ > 0 ? 1 / packet_rate_hz_ : 1, 16) {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        stream_.feed(
-            packet, [&](const Frame& frame) { message(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        stream_.reset();
+        FrameDecoder::reset();
         fine_.reset();
         counter_.reset();
     }
 
   private:
-    FrameStream<XbusFormat> stream_;
     Mounting mounting_;
     double packet_rate_hz_;
     DeviceClock fine_{1e-4, 32}; // SampleTimeFine
     DeviceClock counter_;
 
     /// Other messages are answers to somebody's commands.
-    void message(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         sink.frame(frame.bytes);
         const auto data = frame.bytes[2] == xbus::mtdata2 ? parse_message(frame.bytes) : std::nullopt;
         if (!data) return;

@@ -1,5 +1,6 @@
 #include "drivers/layout/serial_layout.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/layout/serial_format.h"
 
 #include <fmt/format.h>
@@ -23,22 +24,17 @@ struct Slot {
     double si;
 };
 
-class SerialLayout : public Decoder {
+class SerialLayout : public FrameDecoder<SerialFormat> {
   public:
     explicit SerialLayout(const SerialLayoutSettings& settings)
-        : settings_{settings}, frames_{SerialFormat{settings}},
+        : FrameDecoder{SerialFormat{settings}}, settings_{settings},
           assembly_{quantities_of(settings.fields), owner_of(settings)},
           slots_{settings.fields.begin(), settings.fields.end()} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(), assembly_.reset(); }
+    void reset() override { FrameDecoder::reset(), assembly_.reset(); }
 
   private:
-    void take(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         const std::size_t count = element_count(frame.bytes);
         const auto begin = static_cast<std::size_t>(settings_.element_begin_byte);
         const auto size = static_cast<std::size_t>(settings_.element_bytes);
@@ -72,7 +68,6 @@ class SerialLayout : public Decoder {
     }
 
     SerialLayoutSettings settings_;
-    FrameStream<SerialFormat> frames_;
     Assembly assembly_;
     std::vector<Slot> slots_;
 };

@@ -1,8 +1,8 @@
 // A record: type, length of the rest (2 bytes), then for packets a timestamp (4), the length on the air, and the frame.
 #include "drivers/radio/cc2531.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/radio/mac_header.h"
-#include "drivers/wire/frame_stream.h"
 
 namespace locus::radio {
 namespace {
@@ -38,19 +38,12 @@ struct Cc2531Format {
     }
 };
 
-class Cc2531 : public Decoder {
+class Cc2531 : public FrameDecoder<Cc2531Format> {
   public:
     explicit Cc2531(const Cc2531Settings& settings) : settings_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(); }
-
   private:
-    void take(const Frame& frame, MeasurementSink& sink) const {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         if (frame.bytes[0] == tick_record) return sink.frame(frame.bytes);
         const Cc2531Record record = parse_cc2531(frame.bytes);
         if (!record.crc_good) return sink.refuse(Refusal::bad_checksum);
@@ -66,7 +59,6 @@ class Cc2531 : public Decoder {
     }
 
     Cc2531Settings settings_;
-    FrameStream<Cc2531Format> frames_;
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "drivers/radio/hm10.h"
 
-#include "drivers/wire/frame_stream.h"
+#include "drivers/frame_decoder.h"
 
 #include <fmt/format.h>
 
@@ -51,16 +51,9 @@ struct Hm10Format {
     }
 };
 
-class Hm10 : public Decoder {
+class Hm10 : public FrameDecoder<Hm10Format> {
   public:
     explicit Hm10(const Hm10Settings& settings) : settings_{settings} {}
-
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(); }
 
     std::optional<Packet> request(Timestamp now) override {
         const auto period = duration_from_s(settings_.scan_period_s);
@@ -74,7 +67,7 @@ class Hm10 : public Decoder {
   private:
     static constexpr std::string_view scan = "AT+DISI?";
 
-    void take(const Frame& frame, MeasurementSink& sink) const {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         sink.frame(frame.bytes);
         if (frame.bytes.size() != record_size) return;
         const std::string_view record = text_of(frame.bytes);
@@ -88,7 +81,6 @@ class Hm10 : public Decoder {
     }
 
     Hm10Settings settings_;
-    FrameStream<Hm10Format> frames_;
     Timestamp next_scan_{};
 };
 

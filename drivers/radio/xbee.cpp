@@ -1,7 +1,7 @@
 #include "drivers/radio/xbee.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/wire/checksum.h"
-#include "drivers/wire/frame_stream.h"
 
 #include <algorithm>
 
@@ -55,16 +55,11 @@ struct XbeeFormat {
     }
 };
 
-class Xbee : public Decoder {
+class Xbee : public FrameDecoder<XbeeFormat> {
   public:
-    explicit Xbee(const XbeeSettings& settings) : settings_{settings}, frames_{XbeeFormat{settings.escaped}} {}
+    explicit Xbee(const XbeeSettings& settings) : FrameDecoder{XbeeFormat{settings.escaped}}, settings_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(), awaited_.reset(), asking_ = false; }
+    void reset() override { FrameDecoder::reset(), awaited_.reset(), asking_ = false; }
 
     std::optional<Packet> request(Timestamp) override {
         if (!asking_) return std::nullopt;
@@ -77,7 +72,7 @@ class Xbee : public Decoder {
   private:
     static constexpr std::array<std::uint8_t, 8> at_db{0x7E, 0x00, 0x04, 0x08, 0x01, 0x44, 0x42, 0x70};
 
-    void take(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         const Plain plain = plain_of(frame.bytes, settings_.escaped);
         const auto parsed = parse_xbee({plain.bytes.data() + 3, plain.size - around_data});
         if (!parsed) return sink.refuse(Refusal::malformed);
@@ -105,7 +100,6 @@ class Xbee : public Decoder {
         std::uint64_t source;
     };
     XbeeSettings settings_;
-    FrameStream<XbeeFormat> frames_;
     std::optional<Awaited> awaited_; ///< the packet whose strength AT DB will tell
     bool asking_ = false;
 };

@@ -1,7 +1,7 @@
 #include "drivers/radio/znp.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/wire/checksum.h"
-#include "drivers/wire/frame_stream.h"
 
 namespace locus::radio {
 namespace {
@@ -25,19 +25,12 @@ struct ZnpFormat {
     }
 };
 
-class Znp : public Decoder {
+class Znp : public FrameDecoder<ZnpFormat> {
   public:
     explicit Znp(const ZnpSettings& settings) : settings_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(); }
-
   private:
-    void take(const Frame& frame, MeasurementSink& sink) const {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         sink.frame(frame.bytes);
         const auto incoming = parse_znp_incoming(frame.bytes);
         if (!incoming) return;
@@ -49,7 +42,6 @@ class Znp : public Decoder {
     }
 
     ZnpSettings settings_;
-    FrameStream<ZnpFormat> frames_;
 };
 
 } // namespace

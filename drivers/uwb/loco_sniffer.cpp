@@ -1,8 +1,8 @@
 #include "drivers/uwb/loco_sniffer.h"
 
 #include "drivers/device_clock.h"
+#include "drivers/frame_decoder.h"
 #include "drivers/uwb/loco_tdoa.h"
-#include "drivers/wire/frame_stream.h"
 
 #include <algorithm>
 
@@ -47,23 +47,18 @@ struct LocoFormat {
     }
 };
 
-class LocoSniffer : public Decoder {
+class LocoSniffer : public FrameDecoder<LocoFormat> {
   public:
     explicit LocoSniffer(const LocoSnifferSettings& settings) : settings_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { take(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        frames_.reset();
+        FrameDecoder::reset();
         differences_.reset();
         clock_.reset();
     }
 
   private:
-    void take(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         const auto sniffed = frame.bytes[0] == 'F' ? line(frame.bytes) : loco::parse_record(frame.bytes);
         if (!sniffed) return sink.refuse(Refusal::malformed);
         const auto payload = loco::parse(sniffed->payload);
@@ -89,7 +84,6 @@ class LocoSniffer : public Decoder {
     }
 
     LocoSnifferSettings settings_;
-    FrameStream<LocoFormat> frames_;
     loco::DifferenceMaker differences_;
     DeviceClock clock_{tick_s, 40};
     std::array<std::uint8_t, loco::longest_payload> payload_{};

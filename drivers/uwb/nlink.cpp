@@ -1,6 +1,7 @@
 // Measurements out of NLink frames: which frame gives which stands in nlink.h.
 #include "drivers/uwb/nlink.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/uwb/nlink_messages.h"
 
 #include <algorithm>
@@ -96,22 +97,14 @@ class Give {
     }
 };
 
-class Nlink : public Decoder {
+class Nlink : public FrameDecoder<Format> {
   public:
     explicit Nlink(const NlinkSettings& settings) : settings_(settings) {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { give(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
-    void reset() override { frames_.reset(); }
-
   private:
     NlinkSettings settings_;
-    FrameStream<Format> frames_;
 
-    void give(const Frame& frame, MeasurementSink& sink) const {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         const auto message = parse(frame.bytes);
         if (!message) return sink.refuse(Refusal::malformed);
         sink.frame(frame.bytes);
