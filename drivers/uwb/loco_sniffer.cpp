@@ -3,13 +3,12 @@
 #include "drivers/device_clock.h"
 #include "drivers/frame_decoder.h"
 #include "drivers/uwb/loco_tdoa.h"
+#include "fusion/uwb/ticks.h"
 
 #include <algorithm>
 
 namespace locus::uwb {
 namespace {
-
-constexpr double tick_s = 1 / (128 * 499.2e6);
 
 /// Lines of text and binary records, told apart by their first byte.
 struct LocoFormat {
@@ -85,7 +84,7 @@ class LocoSniffer : public FrameDecoder<LocoFormat> {
 
     LocoSnifferSettings settings_;
     loco::DifferenceMaker differences_;
-    DeviceClock clock_{tick_s, 40};
+    DeviceClock clock_{tick_s, dw1000_clock_bits};
     std::array<std::uint8_t, loco::longest_payload> payload_{};
 };
 

@@ -1,6 +1,7 @@
 #include "drivers/uwb/loco_tdoa.h"
 
 #include "drivers/uwb/limits.h"
+#include "fusion/uwb/ticks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,10 @@
 namespace locus::uwb::loco {
 namespace {
 
-constexpr double ticks_per_s = 128 * 499.2e6; // DW1000 user manual, sec. 4.1.7
-constexpr double metres_per_tick = 299792458 / ticks_per_s;
-constexpr std::uint64_t listener_mask = (std::uint64_t{1} << 40) - 1;
-/// Anchors' stamps say no more than this about an interval: 67 ms.
-constexpr std::uint64_t anchor_period = std::uint64_t{1} << 32;
+constexpr WrappingClock listener{40}, anchors{32};
 
+/// Anchors' stamps tell intervals up to 67 ms, by anyone's clock.
+constexpr std::int64_t longest_interval_ticks = anchors.period_ticks() - anchors.period_ticks() / 100;
 /// Crystals are within 20 ppm (DW1000 data sheet, 5.1), two of them within twice that; the rest is for cold ones.
 constexpr double largest_rate_excess = 60e-6;
 /// Between packets rates change by less, also where the way suddenly is a metre longer: a stamp was wrong, or the
@@ -22,8 +21,6 @@ constexpr double largest_rate_step = 3e-7;
 constexpr unsigned enough_rates = 2;
 /// Rates move over seconds (temperature), stamps are noisy to 1e-8 over 20 ms: smoothed over this.
 constexpr double smoothing_s = 0.1;
-
-std::uint64_t ticks_between(std::uint64_t earlier, std::uint64_t later) { return (later - earlier) & listener_mask; }
 
 /// Both kinds of packet as the later one says it.
 Tdoa3 as_tdoa3(const Tdoa2& packet, std::uint8_t sender) {
@@ -53,25 +50,25 @@ std::optional<RangeDifference> DifferenceMaker::hear(std::uint8_t sender, std::u
     const Tdoa3::Remote* remote = newest_known(*packet, sender, rx_ticks);
     if (remote == nullptr || b.rates_in_a_row < enough_rates) return std::nullopt;
 
-    const std::uint64_t heard_apart = ticks_between(anchors_[remote->anchor].rx_ticks_in_listener, rx_ticks);
-    const std::uint32_t since_rx = packet->tx_ticks_in_sender - remote->rx_ticks_in_sender; // wraps as they do
-    const double sent_apart_in_b = static_cast<double>(since_rx) + remote->distance_ticks;
-    // Whole ticks first: the two intervals are up to 2^32 of them, and the difference of rates is small.
+    const std::int64_t heard_apart = listener.since(rx_ticks, anchors_[remote->anchor].rx_ticks_in_listener);
+    const std::int64_t sent_apart_in_b =
+        anchors.since(packet->tx_ticks_in_sender, remote->rx_ticks_in_sender) + remote->distance_ticks;
     const double difference_ticks =
-        (static_cast<double>(heard_apart) - sent_apart_in_b) - b.rate_excess * sent_apart_in_b;
+        static_cast<double>(heard_apart - sent_apart_in_b) - b.rate_excess * static_cast<double>(sent_apart_in_b);
     RangeDifference difference;
     difference.anchor_a = address(remote->anchor);
     difference.anchor_b = address(sender);
-    difference.difference_m = difference_ticks * metres_per_tick;
+    difference.difference_m = difference_ticks * tick_m;
     if (std::abs(difference.difference_m) > farthest_dw1000_m) return std::nullopt;
     return difference;
 }
 
 void DifferenceMaker::meet(Anchor& anchor, std::uint8_t packet, std::uint64_t rx_ticks, std::uint32_t tx_ticks) {
-    const std::uint64_t received = ticks_between(anchor.rx_ticks_in_listener, rx_ticks);
-    const std::uint32_t sent = tx_ticks - anchor.tx_ticks_in_anchor;
-    if (anchor.heard && sent > 0 && received < anchor_period - anchor_period / 100)
-        take_rate(anchor, (static_cast<double>(received) - sent) / sent, static_cast<double>(received) / ticks_per_s);
+    const std::int64_t received = listener.since(rx_ticks, anchor.rx_ticks_in_listener);
+    const std::int64_t sent = anchors.since(tx_ticks, anchor.tx_ticks_in_anchor);
+    if (anchor.heard && sent > 0 && received < longest_interval_ticks)
+        take_rate(anchor, static_cast<double>(received - sent) / static_cast<double>(sent),
+                  static_cast<double>(received) * tick_s);
     anchor.heard = true;
     anchor.packet = packet;
     anchor.rx_ticks_in_listener = rx_ticks;
@@ -89,11 +86,11 @@ void DifferenceMaker::take_rate(Anchor& anchor, double rate_excess, double inter
 const Tdoa3::Remote* DifferenceMaker::newest_known(const Tdoa3& packet, std::uint8_t sender,
                                                    std::uint64_t rx_ticks) const {
     const Tdoa3::Remote* newest = nullptr;
-    std::uint64_t least = anchor_period;
+    std::int64_t least = longest_interval_ticks;
     for (std::size_t i = 0; i < packet.remote_count; ++i) {
         const Tdoa3::Remote& remote = packet.remotes[i];
         const Anchor& anchor = anchors_[remote.anchor];
-        const std::uint64_t ago = ticks_between(anchor.rx_ticks_in_listener, rx_ticks);
+        const std::int64_t ago = listener.since(rx_ticks, anchor.rx_ticks_in_listener);
         const bool same_packet = anchor.heard && anchor.packet == remote.packet && remote.anchor != sender;
         if (!same_packet || remote.distance_ticks == 0 || ago >= least) continue;
         least = ago;
