@@ -10,22 +10,22 @@ namespace {
 constexpr std::size_t most_pairs = 160, most_places = 1024;
 constexpr std::size_t fewest_places = 4;
 
-using Counts = std::vector<std::uint32_t>;
+using Frequencies = std::vector<std::uint32_t>;
 
-Counts pair_counts(wire::Bytes bytes) {
-    Counts counts(std::size_t{1} << 16);
+Frequencies pair_counts(wire::Bytes bytes) {
+    Frequencies counts(std::size_t{1} << 16);
     for (std::size_t i = 0; i + 1 < bytes.size(); ++i) ++counts[wire::big<std::uint16_t>(bytes, i)];
     return counts;
 }
 
-Counts byte_counts(wire::Bytes bytes) {
-    Counts counts(256);
+Frequencies byte_counts(wire::Bytes bytes) {
+    Frequencies counts(256);
     for (const std::uint8_t byte : bytes) ++counts[byte];
     return counts;
 }
 
 /// The values that come often enough for frames that are not longer than a layout can have, the most frequent first.
-std::vector<std::uint32_t> frequent(const Counts& counts, std::size_t bytes, std::size_t most) {
+std::vector<std::uint32_t> frequent(const Frequencies& counts, std::size_t bytes, std::size_t most) {
     const std::size_t least = std::max(fewest_places, bytes / layout::longest_serial_frame);
     std::vector<std::uint32_t> values;
     for (std::uint32_t value = 0; value < counts.size(); ++value)

@@ -8,7 +8,7 @@
 namespace locus::sniff {
 namespace {
 
-constexpr std::size_t most_frames = 40, first_frames = 4;
+constexpr std::size_t most_frames_tried = 40, frames_tried_first = 4;
 constexpr std::size_t fewest_different = 5;
 constexpr int last_begin = 5, longest_trailer = 2;
 
@@ -24,7 +24,7 @@ bool holds(const layout::SerialFormat& format, const std::vector<wire::Bytes>& f
                                                       frames.begin() + static_cast<std::ptrdiff_t>(count),
                                                       [&](wire::Bytes frame) { return holds_on(format, frame); }));
     };
-    return of(first_frames) >= first_frames - 1 && of(frames.size()) * 10 >= frames.size() * 9;
+    return of(frames_tried_first) >= frames_tried_first - 1 && of(frames.size()) * 10 >= frames.size() * 9;
 }
 
 /// No frame twice: what repeats proves nothing.
@@ -33,7 +33,7 @@ std::vector<wire::Bytes> different(wire::Bytes bytes, const std::vector<Cut>& fr
     std::set<wire::Bytes, decltype(before)> seen{before};
     std::vector<wire::Bytes> kept;
     for (const Cut& cut : frames)
-        if (kept.size() < most_frames && seen.insert(bytes.subspan(cut.begin, cut.length)).second)
+        if (kept.size() < most_frames_tried && seen.insert(bytes.subspan(cut.begin, cut.length)).second)
             kept.push_back(bytes.subspan(cut.begin, cut.length));
     return kept;
 }

@@ -18,7 +18,7 @@ constexpr std::size_t most_looked_at = 32768;
 constexpr std::size_t most_framings = 12;
 constexpr std::size_t most_turns = 16;
 constexpr std::size_t longest_sync = 4, sync_with_checksum = 2;
-constexpr std::size_t fewest_frames = 5, most_samples = 200;
+constexpr std::size_t fewest_frames = 5, most_sample_frames = 200;
 
 struct Rated {
     FrameGuess guess;
@@ -155,7 +155,7 @@ FrameGuess measured(const SerialLayoutSettings& layout, wire::Bytes bytes) {
             guess.shortest = guess.frames++ == 0 ? frame.bytes.size() : std::min(guess.shortest, frame.bytes.size());
             guess.longest = std::max(guess.longest, frame.bytes.size());
             covered += frame.bytes.size();
-            if (guess.samples.size() < most_samples) guess.samples.emplace_back(frame.bytes.begin(), frame.bytes.end());
+            if (guess.samples.size() < most_sample_frames) guess.samples.emplace_back(frame.bytes.begin(), frame.bytes.end());
         },
         [](Refusal) {});
     guess.share = static_cast<double>(covered) / static_cast<double>(std::max<std::size_t>(bytes.size(), 1));
