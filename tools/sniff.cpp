@@ -67,13 +67,12 @@ int list_frames(const SniffOptions& options, const Source& source) {
     const auto transport = opened(source);
     if (!transport) return exit_usage;
     EntryLines lines{options.json};
-    Listing listing{*source.decoder, source.decoder_settings.get(), [&](const Entry& entry) {
-                        if (options.count == 0 || lines.frames() < options.count) lines.print(entry);
-                    }};
+    Listing listing{*source.decoder, source.decoder_settings.get(), options.count,
+                    [&](const Entry& entry) { lines.print(entry); }};
     const auto enough = [&] {
         if (options.ask && !source.is_file)
             if (const auto request = listing.request(monotonic_now())) transport->write(*request);
-        return options.count > 0 && lines.frames() >= options.count;
+        return listing.full();
     };
     listen(*transport, listing, time_limit(options, source, std::nullopt), enough);
     listing.finish();

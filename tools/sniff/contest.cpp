@@ -124,7 +124,10 @@ std::vector<Standing> contest(const Capture& capture) {
     standings.clear();
     each_row([&](const DecoderRow& row) {
         enter(row, row.options.make());
-        for (auto& settings : variants(row)) enter(row, std::move(settings));
+        for (auto& settings : variants(row)) {
+            const Tally tally = tally_of(capture, row, settings.get()); // a loose setting finds frames in anything
+            if (tally.all_measurements() > 0) enter(row, std::move(settings));
+        }
     });
     // Settings that change nothing for these bytes are not worth a line: the best of a decoder stands for it.
     std::vector<Standing> best;

@@ -84,7 +84,6 @@ std::string entry_json(const Entry& entry, double time_s) {
 
 void EntryLines::print(const Entry& entry) {
     if (!first_) first_ = entry.time;
-    frames_ += entry.refusals.empty();
     const double time_s = to_s(entry.time - *first_);
     fmt::print("{}\n", json_ ? entry_json(entry, time_s) : entry_text(entry, time_s));
     std::fflush(stdout);

@@ -3,7 +3,6 @@
 
 #include "tools/sniff/listing.h"
 
-#include <cstdint>
 #include <optional>
 
 namespace locus::sniff {
@@ -13,12 +12,9 @@ class EntryLines {
     explicit EntryLines(bool json) : json_{json} {}
     void print(const Entry& entry);
     void print_summary(const Listing& listing) const;
-    /// Printed so far.
-    std::uint64_t frames() const { return frames_; }
 
   private:
     bool json_;
-    std::uint64_t frames_ = 0;
     std::optional<Timestamp> first_; ///< times are told from there on
 };
 

@@ -11,16 +11,15 @@ constexpr std::size_t most_refusals = 32; ///< told together; after so many it i
 
 } // namespace
 
-Listing::Listing(const DecoderRow& decoder, const void* settings, Tell tell)
-    : row_{decoder}, decoder_{decoder.make(settings)}, tell_{std::move(tell)} {}
+Listing::Listing(const DecoderRow& decoder, const void* settings, std::uint64_t most_frames, Tell tell)
+    : row_{decoder}, decoder_{decoder.make(settings)}, most_frames_{most_frames}, tell_{std::move(tell)} {}
 
 /// Byte by byte, so that what a decoder says is said of a place in the stream. Frames and messages are whole.
 void Listing::packet(const Packet& packet) {
-    if (packet.wire != row_.wire) return;
+    if (packet.wire != row_.wire || full()) return;
     if (packets_++ == 0) begun_ = packet.time;
-    bytes_ += packet.data.size();
     if (row_.wire == Wire::can || row_.datagrams) return feed(packet);
-    for (std::size_t i = 0; i < packet.data.size(); ++i) {
+    for (std::size_t i = 0; i < packet.data.size() && !full(); ++i) {
         Packet one = packet;
         one.data = packet.data.subspan(i, 1);
         one.time -= static_cast<std::int64_t>(packet.data.size() - 1 - i) * packet.byte_time;
@@ -31,7 +30,7 @@ void Listing::packet(const Packet& packet) {
 void Listing::feed(const Packet& packet) {
     current_ = packet;
     now_ = packet.time;
-    fed_ += packet.data.size();
+    bytes_ += packet.data.size();
     decoder_->decode(packet, *this);
     tell_frame();
     if (row_.wire == Wire::can ? !refusals_.empty() : refusals_.size() >= most_refusals) tell_refusals(0);
@@ -56,7 +55,7 @@ void Listing::frame(std::span<const std::uint8_t> bytes) {
     tell_frame();
     if (!refusals_.empty()) tell_refusals(bytes.size());
     tally_.frame(bytes);
-    accounted_ = fed_;
+    accounted_ = bytes_;
     frame_ = entry(bytes);
 }
 
@@ -82,13 +81,13 @@ void Listing::tell_frame() {
 void Listing::tell_refusals(std::size_t understood) {
     const bool can = row_.wire == Wire::can;
     Entry told = entry(can ? current_.data : std::span<const std::uint8_t>{});
-    const std::uint64_t passed = fed_ - accounted_;
+    const std::uint64_t passed = bytes_ - accounted_;
     const bool line_end = !can && understood > 0 && !current_.data.empty() && current_.data.back() == '\n';
     const std::uint64_t taken = understood + (line_end ? 1 : 0);
     told.skipped = passed > taken ? passed - taken : 0;
     told.refusals = std::exchange(refusals_, {});
     skipped_ += told.skipped;
-    accounted_ = fed_;
+    accounted_ = bytes_;
     tell_(told);
 }
 

@@ -27,7 +27,8 @@ class Listing : public PacketSink, private MeasurementSink {
   public:
     using Tell = std::function<void(const Entry&)>;
 
-    Listing(const DecoderRow& decoder, const void* settings, Tell tell);
+    /// Of `most_frames` frames; 0: of all.
+    Listing(const DecoderRow& decoder, const void* settings, std::uint64_t most_frames, Tell tell);
 
     void packet(const Packet& packet) override;
     /// Tells what was not told yet.
@@ -36,6 +37,7 @@ class Listing : public PacketSink, private MeasurementSink {
     /// What the device must be asked now.
     std::optional<Packet> request(Timestamp now) { return decoder_->request(now); }
 
+    bool full() const { return most_frames_ > 0 && tally_.tally.frames >= most_frames_; }
     const Tally& tally() const { return tally_.tally; }
     std::uint64_t bytes() const { return bytes_; }
     std::uint64_t packets() const { return packets_; }
@@ -54,13 +56,14 @@ class Listing : public PacketSink, private MeasurementSink {
 
     const DecoderRow& row_;
     std::unique_ptr<Decoder> decoder_;
+    std::uint64_t most_frames_;
     Tell tell_;
     TallySink tally_;
     std::optional<Entry> frame_;
     std::vector<Refusal> refusals_; ///< since the last frame
     Packet current_{};
     Timestamp begun_{}, now_{};
-    std::uint64_t packets_ = 0, bytes_ = 0, fed_ = 0, accounted_ = 0, skipped_ = 0;
+    std::uint64_t packets_ = 0, bytes_ = 0, accounted_ = 0, skipped_ = 0;
 };
 
 } // namespace locus::sniff

@@ -155,7 +155,8 @@ FrameGuess measured(const SerialLayoutSettings& layout, wire::Bytes bytes) {
             guess.shortest = guess.frames++ == 0 ? frame.bytes.size() : std::min(guess.shortest, frame.bytes.size());
             guess.longest = std::max(guess.longest, frame.bytes.size());
             covered += frame.bytes.size();
-            if (guess.samples.size() < most_sample_frames) guess.samples.emplace_back(frame.bytes.begin(), frame.bytes.end());
+            if (guess.samples.size() < most_sample_frames)
+                guess.samples.emplace_back(frame.bytes.begin(), frame.bytes.end());
         },
         [](Refusal) {});
     guess.share = static_cast<double>(covered) / static_cast<double>(std::max<std::size_t>(bytes.size(), 1));

@@ -33,19 +33,23 @@ void each_distance(const std::vector<std::uint32_t>& at, const Each& each) {
         for (std::size_t j = i + 1; j < at.size() && j <= i + anchors_ahead; ++j) each(at[i], at[j] - at[i]);
 }
 
-/// The most frequent distance; of multiples of it, which are nearly as frequent, the first.
-std::optional<LengthRule> fixed_rule(const std::vector<std::uint32_t>& at) {
+/// The most frequent distance, of multiples of it, which are nearly as frequent, the first; and the shortest that is
+/// frequent enough, because frames with something between them are farther apart.
+std::vector<LengthRule> fixed_rules(const std::vector<std::uint32_t>& at) {
     std::vector<std::uint32_t> counts(layout::longest_serial_frame + 1);
     each_distance(at, [&](std::uint32_t, std::uint32_t distance) {
         if (distance < counts.size()) ++counts[distance];
     });
     std::fill_n(counts.begin(), shortest_frame, 0u);
-    const std::uint32_t most = *std::ranges::max_element(counts);
-    if (most < least_support * static_cast<double>(at.size())) return std::nullopt;
-    const auto first = std::ranges::find_if(counts, [&](std::uint32_t count) { return count * 10 >= most * 9; });
-    LengthRule rule;
-    rule.fixed = static_cast<std::size_t>(first - counts.begin());
-    return rule;
+    const double most = *std::ranges::max_element(counts), least = least_support * static_cast<double>(at.size());
+    if (most < least) return {};
+    const auto first_above = [&](double limit) {
+        const auto first = std::ranges::find_if(counts, [&](std::uint32_t count) { return count >= limit; });
+        return static_cast<std::size_t>(first - counts.begin());
+    };
+    const std::size_t often = first_above(0.9 * most), shortest = first_above(least);
+    if (often == shortest) return {{.fixed = often}};
+    return {{.fixed = often}, {.fixed = shortest}};
 }
 
 /// What must be added to the number there so that it leads from most anchors to another one.
@@ -94,7 +98,7 @@ bool lengths_differ(const Framing& framing) {
 
 std::vector<Framing> guess_lengths(wire::Bytes bytes, const Anchor& anchor) {
     std::vector<Framing> found;
-    if (const auto rule = fixed_rule(anchor.at)) found.push_back(chain(bytes, anchor.at, *rule));
+    for (const LengthRule& rule : fixed_rules(anchor.at)) found.push_back(chain(bytes, anchor.at, rule));
     for (std::size_t at = anchor.bytes.size(); at <= farthest_number; ++at)
         for (const auto& [size, big] : {std::pair{1, false}, {2, false}, {2, true}}) {
             const auto rule = said_rule(bytes, anchor.at, {0, at, static_cast<std::size_t>(size), big, 0});

@@ -186,6 +186,22 @@ TEST(GuessFrames, OfARealDevice) {
     EXPECT_EQ(guess->layout.checksum, "sum8");
 }
 
+TEST(GuessFrames, WhatStandsBetweenFramesIsNoPartOfThem) {
+    Chunk bytes;
+    std::mt19937 random{1};
+    for (int i = 0; i < 100; ++i) {
+        if (i % 3 == 0) bytes.push_back(1), bytes.push_back(2);
+        Chunk frame = head_and_noise("AA 55 0F", 11, random);
+        frame.push_back(wire::sum8(frame));
+        bytes.insert(bytes.end(), frame.begin(), frame.end());
+    }
+    const auto guess = guess_frames(bytes);
+    ASSERT_TRUE(guess);
+    EXPECT_EQ(guess->layout.frame_bytes, 15);
+    EXPECT_EQ(guess->frames, 100u);
+    EXPECT_EQ(guess->layout.checksum, "sum8");
+}
+
 TEST(GuessFrames, NothingIsSeenInNoise) {
     for (unsigned seed = 0; seed < 60; ++seed) {
         std::mt19937 random{seed};
