@@ -1,6 +1,7 @@
 // One recording of everything at once: several devices of a kind and other transports, on one clock; played again it
 // gives what the decoders gave live. Devices that must be asked are asked while it records.
 #include "config/load.h"
+#include "drivers/clock.h"
 #include "drivers/uwb/trek1000.h"
 #include "tests/support/fake_device.h"
 #include "tests/support/tcp_server.h"
@@ -95,8 +96,10 @@ TEST_F(RecordAll, InputsOfManyKindsComeBackAsTheyCame) {
             std::this_thread::sleep_for(std::chrono::milliseconds{4});
         }
     }};
+    const Timestamp begun = monotonic_now();
     const auto recorded =
         run_locus({add_record}, {"record", "--config", yaml, "-o", folder_ / "all.log", "--seconds", "1.5", "--json"});
+    const Timestamp ended = monotonic_now();
     talk.request_stop();
     ASSERT_EQ(recorded.exit_code, exit_yes) << recorded.err;
 
@@ -115,16 +118,18 @@ TEST_F(RecordAll, InputsOfManyKindsComeBackAsTheyCame) {
     for (const Heard& one : heard) ++replayed[settings.inputs[one.input].name];
     for (const auto& [name, counts] : by_name(recorded.out)) {
         EXPECT_EQ(replayed[name], counts["measurements"].get<std::uint64_t>()) << name;
-        EXPECT_GT(replayed[name], 20u) << name;
+        EXPECT_GT(replayed[name], 5u) << name;
     }
-    // The lines were sent one after the other, 4 ms apart: by the one clock they came so, whichever way.
-    std::ranges::sort(heard, {}, &Heard::range_m);
-    std::size_t swapped = 0;
-    for (std::size_t i = 1; i < heard.size(); ++i) {
-        swapped += heard[i].time < heard[i - 1].time;
-        EXPECT_LT(to_s(heard[i - 1].time - heard[i].time), 0.1);
+    // By one clock all of it came while it was recorded, and what each device said came in the order that it was said.
+    std::map<std::uint16_t, Heard> last;
+    for (const Heard& one : heard) {
+        EXPECT_TRUE(one.time >= receive_stamp(begun) && one.time <= ended);
+        if (const auto before = last.find(one.input); before != last.end()) {
+            EXPECT_LT(before->second.range_m, one.range_m);
+            EXPECT_LE(before->second.time, one.time);
+        }
+        last[one.input] = one;
     }
-    EXPECT_LT(swapped, heard.size() / 4) << "of " << heard.size() << "; a busy machine swaps some";
 }
 
 TEST_F(RecordAll, DevicesThatMustBeAskedAreAsked) {
