@@ -42,7 +42,7 @@ struct InputParts {
     std::unique_ptr<Transport> transport{};
     std::unique_ptr<Decoder> decoder{}; ///< may be null: then only the tap listens
     Duration delay{0};                  ///< from the sample to the wire, taken off every measurement's time
-    MeasurementRing* ring = nullptr;    ///< may be null, with a null decoder
+    MeasurementRing* ring = nullptr;    ///< may be null: then measurements are only counted, and devices still asked
     PacketSink* tap = nullptr;          ///< sees every packet as the transport gave it, before the decoder
     std::function<void(const InputEvent&)> on_event{}; ///< called in the input's thread
 };

@@ -29,6 +29,7 @@ void add_config(CLI::App& root, int& exit_code);
 
 // Of the devices themselves.
 void add_record(CLI::App& root, int& exit_code);
+void add_sniff(CLI::App& root, int& exit_code);
 
 // Of the command line itself.
 void add_completion(CLI::App& root, int& exit_code);

@@ -15,6 +15,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_reload,
     locus::add_evaluate,
     locus::add_record,
+    locus::add_sniff,
     locus::add_check,
     locus::add_config,
     locus::add_completion,

@@ -1,12 +1,11 @@
-// locusd as a process, with its own folder, configuration and socket; a pseudo-terminal in place of a device.
+// locusd as a process, with its own folder, configuration and socket.
 #pragma once
 
-#include "drivers/transport/unique_fd.h"
+#include "tests/support/fake_device.h"
 #include "tests/support/temporary_folder.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -23,34 +22,6 @@
 #include <vector>
 
 namespace locus::test {
-
-/// A pseudo-terminal whose far end a link points at, as udev's names do. Destroyed, it is unplugged.
-class FakeDevice {
-  public:
-    explicit FakeDevice(const std::string& link) : link_{link}, master_{::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)} {
-        ::grantpt(master_.get());
-        ::unlockpt(master_.get());
-        termios terminal{};
-        ::tcgetattr(master_.get(), &terminal);
-        ::cfmakeraw(&terminal);
-        ::tcsetattr(master_.get(), TCSANOW, &terminal);
-        char name[128];
-        ::ptsname_r(master_.get(), name, sizeof name);
-        std::filesystem::remove(link_);
-        std::filesystem::create_symlink(name, link_);
-    }
-    ~FakeDevice() { std::filesystem::remove(link_); }
-    FakeDevice(const FakeDevice&) = delete;
-    FakeDevice& operator=(const FakeDevice&) = delete;
-
-    bool send(const std::string& bytes) const {
-        return ::write(master_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-    }
-
-  private:
-    std::string link_;
-    UniqueFd master_;
-};
 
 class DaemonProcess {
   public:

@@ -36,12 +36,12 @@ std::vector<std::shared_ptr<void>> variants(const DecoderRow& row) {
 }
 
 /// Two bytes in every frame's length replaced, in a CAN frame one.
-Capture damaged(const Capture& capture, std::uint64_t frames) {
+Capture damaged(const Capture& capture, const Tally& understood) {
     std::mt19937 random{1};
     std::vector<std::uint8_t> bytes{capture.bytes().begin(), capture.bytes().end()};
     if (bytes.empty()) return capture;
     const bool can = capture.wire() == Wire::can;
-    const std::size_t step = std::max<std::size_t>(bytes.size() / (frames * 2), 2);
+    const std::size_t step = std::max<std::size_t>(understood.frame_bytes / (understood.frames * 2), 2);
     const auto spoil = [&](std::size_t at) { bytes[at] ^= static_cast<std::uint8_t>(1 + random() % 255); };
     for (std::size_t at = 0; !can && at < bytes.size(); at += step)
         spoil(std::min<std::size_t>(at + random() % step, bytes.size() - 1));
@@ -62,7 +62,9 @@ Confidence confidence_of(const Standing& standing, Wire wire) {
         if (standing.guarded && tally.frames >= 3) return Confidence::sure;
         return tally.frames >= 10 ? Confidence::likely : Confidence::none;
     }
-    if (standing.guarded && standing.share >= 0.25 && tally.frames >= 2)
+    // Another format may have most of the line (NMEA beside raw UBX).
+    const bool beside = standing.share >= 0.05 && tally.frames >= 20 && tally.all_measurements() > 0;
+    if (standing.guarded && (beside || (standing.share >= 0.25 && tally.frames >= 2)))
         return tally.frames >= 4 ? Confidence::sure : Confidence::likely;
     return tally.frames >= 4 && standing.share >= 0.7 ? Confidence::likely : Confidence::none;
 }
@@ -85,8 +87,10 @@ Standing standing_of(const Capture& capture, const DecoderRow& row, std::shared_
         can ? static_cast<double>(tally.frames) / static_cast<double>(capture.packets())
             : static_cast<double>(tally.frame_bytes) / static_cast<double>(std::max<std::size_t>(bytes, 1));
     standing.share = std::min(standing.share, 1.0);
-    const Tally after = tally_of(damaged(capture, tally.frames), row, standing.settings.get());
-    standing.guarded = static_cast<double>(after.frames) <= most_leaking * static_cast<double>(tally.frames);
+    const Tally after = tally_of(damaged(capture, tally), row, standing.settings.get());
+    // By bytes, because the damage is spread over them: where frames differ much in length, many short ones stay whole.
+    const auto left = can ? after.frames : after.frame_bytes, before = can ? tally.frames : tally.frame_bytes;
+    standing.guarded = static_cast<double>(left) <= most_leaking * static_cast<double>(before);
     standing.confidence = confidence_of(standing, row.wire);
     return standing;
 }
@@ -124,7 +128,10 @@ std::vector<Standing> contest(const Capture& capture) {
     standings.clear();
     each_row([&](const DecoderRow& row) {
         enter(row, row.options.make());
-        for (auto& settings : variants(row)) enter(row, std::move(settings));
+        for (auto& settings : variants(row)) {
+            const Tally tally = tally_of(capture, row, settings.get()); // a loose setting finds frames in anything
+            if (tally.all_measurements() > 0) enter(row, std::move(settings));
+        }
     });
     // Settings that change nothing for these bytes are not worth a line: the best of a decoder stands for it.
     std::vector<Standing> best;

@@ -9,8 +9,10 @@
 namespace locus::sniff {
 namespace {
 
-/// What is typed for an option that must be typed and has no value yet.
-std::string placeholder(const OptionValue& value) {
+/// What is typed for an option that must be typed and has no value yet: one that is allowed.
+std::string placeholder(const OptionRow& row, const OptionValue& value) {
+    const auto* number = std::get_if<double>(&value);
+    if (number && !(*number >= row.minimum && *number <= row.maximum)) return config::to_yaml(row.minimum);
     const std::string text = config::to_yaml(value);
     return text.empty() || text == "\"\"" ? "1" : text;
 }
@@ -32,7 +34,7 @@ std::vector<std::string> settings_lines(const OptionTable& table, const void* se
         if (value != config::to_yaml(row.get(defaults.get())))
             lines.push_back(fmt::format("{}: {}", row.name, value));
         else if (row.required)
-            lines.push_back(fmt::format("{}: {} # {}", row.name, placeholder(row.get(settings)), row.about));
+            lines.push_back(fmt::format("{}: {} # {}", row.name, placeholder(row, row.get(settings)), row.about));
     }
     return lines;
 }

@@ -104,6 +104,20 @@ TEST(Contest, TwoFormatsOnOneLineAreBothNamed) {
     EXPECT_EQ(names_of(winners(contest(stream.capture))), (Names{"nmea", "ubx"}));
 }
 
+TEST(Contest, FramesOfVeryDifferentLengthsAreGuardedAllTheSame) {
+    Stream stream;
+    for (const DecoderExample& example : examples::all()) {
+        if (example.decoder != "ubx") continue;
+        for (int i = 0; i < 20; ++i) {
+            stream.add(example.chunks[1]); // RAWX of four signals
+            for (int k = 0; k < 10; ++k) stream.add(examples::from_hex("B5 62 01 22 00 00 23 6A")); // empty
+        }
+    }
+    const auto found = winners(contest(stream.capture));
+    ASSERT_EQ(names_of(found), Names{"ubx"});
+    EXPECT_EQ(found[0].confidence, Confidence::sure);
+}
+
 TEST(Contest, NoiseIsNobodys) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         std::mt19937 random{seed};
