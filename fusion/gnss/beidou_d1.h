@@ -25,4 +25,10 @@ unsigned d1_subframe_number(const MessageBits& subframe) noexcept;
 /// From subframes 1, 2 and 3; empty when they were not sent one after the other.
 std::optional<KeplerEphemeris> d1_ephemeris(std::span<const MessageBits, 3> subframes) noexcept;
 
+/// Subframes 1, 2 and 3 of the frame in which `sent` (GPS time) lies; empty when a value has no room in its field.
+std::optional<std::array<MessageBits, 3>> encode_d1(const KeplerEphemeris& ephemeris, const GpsTime& sent) noexcept;
+
+/// The words of a subframe, with their codes, as u-blox hands them over.
+std::array<std::uint32_t, 10> d1_words(const MessageBits& subframe) noexcept;
+
 } // namespace locus::gnss

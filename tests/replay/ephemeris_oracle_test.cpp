@@ -3,6 +3,9 @@
 // gives no Galileo ephemeris from UBX; single_point_test checks those by where they put the receiver.
 #include "drivers/gnss/ubx.h"
 #include "drivers/gnss/ubx_messages.h"
+#include "fusion/gnss/beidou_d1.h"
+#include "fusion/gnss/glonass_strings.h"
+#include "fusion/gnss/lnav.h"
 #include "tests/replay/data.h"
 #include "tests/replay/gnss_replay.h"
 #include "tests/replay/rinex_oracle.h"
@@ -13,7 +16,7 @@
 namespace locus::gnss {
 namespace {
 
-using test::Bits;
+using test::random_bits;
 
 /// The numbers of a record in its order; not all are comparable, those are left out as NaN.
 std::vector<double> as_printed(const KeplerEphemeris& e) {
@@ -105,35 +108,35 @@ class RandomLog {
     }
 
     void lnav(std::uint8_t constellation, std::uint8_t satellite) {
-        const auto issue = random_() % 256;
+        const auto issue = static_cast<std::uint32_t>(random_() % 256);
         for (unsigned number = 1; number <= 3; ++number) {
-            Bits bits = Bits::random(240, random_).set(0, 8, 0x8B).set(24, 17, 68100 + number).set(43, 3, number);
+            MessageBits bits = random_bits(240, random_).set(0, 8, 0x8B).set(24, 17, 68100 + number).set(43, 3, number);
             if (number == 1) bits.set(48, 10, 2381 % 1024).set(168, 8, issue).set(176, 16, 410400 / 16);
             if (number == 2) bits.set(48, 8, issue).set(216, 16, 410400 / 16);
             if (number == 3) bits.set(216, 8, issue);
-            words(constellation, satellite, 0, test::lnav_words(bits));
+            words(constellation, satellite, 0, lnav_words(bits));
         }
     }
 
     void d1(std::uint8_t satellite) {
         constexpr std::uint32_t toe = 406800 / 8;
         for (unsigned number = 1; number <= 3; ++number) {
-            Bits bits = Bits::random(224, random_).set(0, 11, 0b11100010010).set(15, 3, number);
+            MessageBits bits = random_bits(224, random_).set(0, 11, 0b11100010010).set(15, 3, number);
             bits.set(18, 20, 408594 + 6 * number);
             if (number == 1) bits.set(48, 13, 1025).set(61, 17, toe);
             if (number == 2) bits.set(222, 2, toe >> 15);
             if (number == 3) bits.set(38, 15, toe & 0x7FFF);
-            words(constellation::beidou, satellite, 0, test::d1_words(bits));
+            words(constellation::beidou, satellite, 0, d1_words(bits));
         }
     }
 
     void glonass(std::uint8_t satellite, std::uint8_t slot) {
         for (unsigned number = 1; number <= 4; ++number) {
-            Bits bits = Bits::random(85, random_).set(0, 1, 0).set(1, 4, number);
+            MessageBits bits = random_bits(85, random_).set(0, 1, 0).set(1, 4, number);
             if (number == 1) bits.set(9, 5, 20).set(14, 6, 29);
             if (number == 2) bits.set(9, 7, 82); // 20:30 in Moscow
             if (number == 4) bits.set(70, 5, satellite);
-            words(constellation::glonass, satellite, 0, test::glonass_words(bits, 0x105), slot);
+            words(constellation::glonass, satellite, 0, glonass_words(bits, 0x105), slot);
         }
     }
 
@@ -144,9 +147,9 @@ class RandomLog {
     void append(const std::vector<std::uint8_t>& frame) { bytes_.insert(bytes_.end(), frame.begin(), frame.end()); }
 
     void words(std::uint8_t constellation, std::uint8_t satellite, std::uint8_t signal,
-               const std::vector<std::uint32_t>& words, std::uint8_t slot = 0) {
+               std::span<const std::uint32_t> words, std::uint8_t slot = 0) {
         ubx::Subframe subframe{constellation, satellite, signal, slot, static_cast<std::uint8_t>(words.size())};
-        std::copy(words.begin(), words.end(), subframe.words.begin());
+        std::ranges::copy(words, subframe.words.begin());
         append(encode(subframe));
     }
 };
