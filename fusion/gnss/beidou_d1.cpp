@@ -7,7 +7,6 @@ namespace locus::gnss {
 namespace {
 
 constexpr std::size_t d1_words_per_subframe = 10;
-constexpr std::uint32_t d1_preamble = 0b11100010010;
 constexpr double seconds_per_subframe = 6;
 
 /// The 4 bits of code for 11 bits of information: remainder by x^4 + x + 1.
@@ -107,9 +106,8 @@ std::optional<std::array<MessageBits, 3>> encode_d1(const KeplerEphemeris& e, co
         const auto second = static_cast<std::uint32_t>(first_s + i * seconds_per_subframe);
         subframes[i].set(0, 11, d1_preamble).set(15, 3, i + 1).set(18, 20, second);
     }
-    const int week = time.week - beidou_week_ahead;
-    subframes[0].set(48, 13, static_cast<std::uint32_t>(week));
-    if (!writer.fits() || week < 0 || week > 8191) return std::nullopt;
+    writer.number(time.week - beidou_week_ahead, {{0, 48, 13}});
+    if (!writer.fits()) return std::nullopt;
     return subframes;
 }
 

@@ -10,7 +10,9 @@
 
 namespace locus::gnss {
 
-/// Whether a satellite is geostationary: these broadcast D2, which is not read, and their orbit is computed otherwise.
+inline constexpr std::uint32_t d1_preamble = 0b11100010010; ///< D2 has the same
+
+/// Whether a satellite is geostationary: these broadcast D2, and their orbit is computed otherwise.
 constexpr bool beidou_geostationary(unsigned satellite) {
     return satellite <= 5 || (satellite >= 59 && satellite <= 63);
 }

@@ -1,6 +1,7 @@
 #include "fusion/gnss/ephemeris_words.h"
 
 #include "fusion/gnss/beidou_d1.h"
+#include "fusion/gnss/beidou_d2.h"
 #include "fusion/gnss/galileo_inav.h"
 #include "fusion/gnss/glonass_strings.h"
 #include "fusion/gnss/lnav.h"
@@ -11,8 +12,8 @@
 namespace locus::gnss {
 namespace {
 
-/// Signal 1 is E1-B, on which Galileo sends I/NAV; the others send on their signal 0.
-constexpr std::uint8_t galileo_e1b = 1;
+/// Signals of u-blox on which a message is sent; the others send theirs on signal 0.
+constexpr std::uint8_t galileo_e1b = 1, beidou_b1i_d2 = 1;
 
 template <class Parts, class ToWords>
 std::vector<GnssNavigation> listed(const std::optional<Parts>& parts, GnssNavigation head, const ToWords& to_words) {
@@ -39,7 +40,10 @@ std::vector<GnssNavigation> words_of(const KeplerEphemeris& e, const GpsTime& se
         head.signal = galileo_e1b;
         return listed(encode_inav(e, sent), head, inav_words);
     case constellation::beidou:
-        if (beidou_geostationary(e.satellite)) return {};
+        if (beidou_geostationary(e.satellite)) {
+            head.signal = beidou_b1i_d2;
+            return listed(encode_d2(e, sent), head, d1_words);
+        }
         return listed(encode_d1(e, sent), head, d1_words);
     default:
         return {};

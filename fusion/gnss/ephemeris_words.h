@@ -9,8 +9,8 @@
 namespace locus::gnss {
 
 /// One GnssNavigation for each subframe, page or string that EphemerisCollector needs, without tag. `sent`: GPS time of
-/// the broadcast; `leap_s`: GPS time less UTC. Empty when a value has no room in its field, or the satellite sends
-/// a message that is not known here (BeiDou D2).
+/// the broadcast; `leap_s`: GPS time less UTC. Empty when a value has no room in its field, or the constellation is
+/// none of those.
 std::vector<GnssNavigation> encode(const Ephemeris& ephemeris, const GpsTime& sent, int leap_s);
 
 } // namespace locus::gnss

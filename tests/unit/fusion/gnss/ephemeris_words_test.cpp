@@ -62,7 +62,7 @@ TEST(EphemerisWords, OfEllipsesComeBackToTheBit) {
     for (int round = 0; round < 100; ++round)
         for (const std::uint8_t constellation :
              {constellation::gps, constellation::qzss, constellation::galileo, constellation::beidou}) {
-            const auto e = any_kepler(steps, constellation, static_cast<std::uint8_t>(6 + round % 5));
+            const auto e = any_kepler(steps, constellation, static_cast<std::uint8_t>(1 + round % 10));
             const auto again = decoded(encode(e, sent, leap_s));
             ASSERT_TRUE(again) << int{constellation};
             ASSERT_TRUE(std::get<KeplerEphemeris>(*again) == e) << int{constellation};
@@ -99,7 +99,9 @@ TEST(EphemerisWords, OfWhatCannotBeBroadcastThereAreNone) {
     e = any_kepler(steps, constellation::galileo, 3);
     e.perigee = std::nan("");
     EXPECT_TRUE(encode(e, sent, leap_s).empty());
-    EXPECT_TRUE(encode(any_kepler(steps, constellation::beidou, 2), sent, leap_s).empty()) << "geostationary: D2";
+    e = any_kepler(steps, constellation::beidou, 2);
+    EXPECT_EQ(encode(e, sent, leap_s).size(), 10u) << "geostationary: D2";
+    EXPECT_TRUE(encode(e, {100, 0}, leap_s).empty()) << "before BeiDou's first week";
     EXPECT_TRUE(encode(any_kepler(steps, constellation::sbas, 120), sent, leap_s).empty());
     EXPECT_TRUE(encode(GlonassEphemeris{}, sent, leap_s).empty()) << "no number";
 }
