@@ -21,6 +21,7 @@ void add_reload(CLI::App& root, int& exit_code);
 
 // Of files, without a daemon.
 void add_evaluate(CLI::App& root, int& exit_code);
+void add_import(CLI::App& root, int& exit_code);
 void add_replay(CLI::App& root, int& exit_code);
 void add_simulate(CLI::App& root, int& exit_code);
 void add_play(CLI::App& root, int& exit_code);

@@ -20,6 +20,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_config,
     locus::add_completion,
     locus::add_simulate,
+    locus::add_import,
     locus::add_replay,
     locus::add_play,
 });

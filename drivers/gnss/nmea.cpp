@@ -1,5 +1,6 @@
 #include "drivers/gnss/nmea.h"
 
+#include "drivers/gnss/epoch_clock.h"
 #include "drivers/gnss/nmea_epoch.h"
 #include "drivers/line_splitter.h"
 #include "drivers/wire/bytes.h"
@@ -29,6 +30,7 @@ class Nmea : public Decoder {
     void reset() override {
         lines_.reset();
         epoch_ = {};
+        clock_.reset();
         given_ = false;
         kinds_before_ = wanted_ = 0;
     }
@@ -37,6 +39,7 @@ class Nmea : public Decoder {
     NmeaSettings settings_;
     LineSplitter lines_;
     Epoch epoch_;
+    EpochClock clock_{EpochClock::day_ns};
     bool given_ = false; ///< the fix of this moment went out
     unsigned kinds_before_ = 0;
     unsigned wanted_ = 0; ///< kinds of sentence that the two moments before had: one lost sentence is still waited for
@@ -78,9 +81,15 @@ class Nmea : public Decoder {
         given_ = fix.has_value();
         if (!fix) return;
         if (is_finite(*fix))
-            sink.accept(epoch_.begun(), *fix);
+            sink.accept(time(), *fix);
         else
             sink.refuse(Refusal::out_of_range);
+    }
+
+    /// Only of moments with a fix: without one the time may be anything.
+    Timestamp time() {
+        if (!settings_.use_receiver_time) return epoch_.begun();
+        return clock_.host_time(epoch_.time_us() * 1000, epoch_.begun());
     }
 
     /// NaN in a sigma says "not known"; an infinite one is nonsense.

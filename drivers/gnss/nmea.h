@@ -1,7 +1,8 @@
 // GNSS receivers that talk NMEA 0183: the sentences of one moment become one fix. Position comes from GGA, velocity
 // from RMC (or VTG where there is no RMC), standard deviations from GST. A fix goes out as soon as all kinds of
-// sentence are there that came in the moment before, or when the next moment begins; its time is when the first of its
-// sentences began to come in. No velocity upwards is told, so it is 0.
+// sentence are there that came in the moment before, or when the next moment begins. It is dated by the time of day
+// that its sentences tell, brought to the host's clock (epoch_clock.h); where use_receiver_time is false, its time is
+// when the first of its sentences began to come in. No velocity upwards is told, so it is 0.
 #pragma once
 
 #include "drivers/decoder.h"
@@ -11,6 +12,7 @@ namespace locus::gnss {
 struct NmeaSettings {
     Address tag = no_address;
     bool need_checksum = true;
+    bool use_receiver_time = true;
     /// Kaplan, Hegarty: Understanding GPS, 2nd ed., table 7.4: user range error of one frequency, 1 sigma.
     double range_error_m = 7.1;
 };
@@ -18,6 +20,9 @@ struct NmeaSettings {
 inline constexpr std::array nmea_options{
     required_option<&NmeaSettings::tag>("tag", "Address of the target that carries it."),
     option<&NmeaSettings::need_checksum>("need_checksum", "Whether sentences without a checksum are refused."),
+    option<&NmeaSettings::use_receiver_time>(
+        "use_receiver_time", "Whether fixes are dated by the receiver's time of day; else by their reception. What is "
+                             "common to all delays is taken off by delay_s."),
     option<&NmeaSettings::range_error_m>(
         "range_error_m", "m", 0.01, 100,
         "Where there is no GST: the horizontal sigma is this times the dilution of precision."),

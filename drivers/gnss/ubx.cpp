@@ -1,6 +1,7 @@
 // UBX messages into measurements.
 #include "drivers/gnss/ubx.h"
 
+#include "drivers/gnss/epoch_clock.h"
 #include "drivers/gnss/ubx_messages.h"
 
 #include <algorithm>
@@ -88,20 +89,25 @@ GnssNavigation navigation_of(const Subframe& subframe, Address tag) {
 
 class Ubx : public Decoder {
   public:
-    explicit Ubx(const UbxSettings& settings) : tag_{settings.tag} {}
+    explicit Ubx(const UbxSettings& settings) : tag_{settings.tag}, use_receiver_time_{settings.use_receiver_time} {}
 
     void decode(const Packet& packet, MeasurementSink& sink) override {
         stream_.feed(
             packet, [&](const Frame& frame) { message(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
     }
 
-    void reset() override { stream_.reset(); }
+    void reset() override {
+        stream_.reset();
+        clock_.reset();
+    }
 
   private:
     Address tag_;
+    bool use_receiver_time_;
     FrameStream<ubx::Format> stream_;
+    EpochClock clock_{EpochClock::week_ns};
 
-    void message(const Frame& frame, MeasurementSink& sink) const {
+    void message(const Frame& frame, MeasurementSink& sink) {
         const wire::Bytes payload = payload_of(frame.bytes);
         switch (message_id(frame.bytes)) {
         case NavPvt::id:
@@ -118,25 +124,39 @@ class Ubx : public Decoder {
     }
 
     template <class Message>
-    void whole(const std::optional<Message>& message, const Frame& frame, MeasurementSink& sink) const {
+    void whole(const std::optional<Message>& message, const Frame& frame, MeasurementSink& sink) {
         if (!message) return sink.refuse(Refusal::malformed);
         sink.frame(frame.bytes);
         give(*message, frame, sink);
     }
 
-    void give(const NavPvt& pvt, const Frame& frame, MeasurementSink& sink) const {
-        if (!pvt.fix_ok() || pvt.position_invalid() || pvt.fix_type == 0 || pvt.fix_type >= time_only) return;
-        if (!possible(pvt)) return sink.refuse(Refusal::out_of_range);
-        sink.accept(frame.begun, fix_of(pvt, tag_));
+    /// A time that the receiver itself does not hold valid would make the clock begin anew.
+    Timestamp time_of(const NavPvt& pvt, const Frame& frame) {
+        constexpr std::int64_t ns_per_ms = 1'000'000;
+        if (!use_receiver_time_ || !pvt.time_valid()) return frame.begun;
+        return clock_.host_time(pvt.time_of_week_ms * ns_per_ms, frame.begun);
     }
 
-    void give(const RawEpoch& epoch, const Frame& frame, MeasurementSink& sink) const {
+    Timestamp time_of(const RawEpoch& epoch, const Frame& frame) {
+        if (!use_receiver_time_) return frame.begun;
+        return clock_.host_time(std::llround(epoch.receiver_time_s * 1e9), frame.begun);
+    }
+
+    void give(const NavPvt& pvt, const Frame& frame, MeasurementSink& sink) {
+        if (!pvt.fix_ok() || pvt.position_invalid() || pvt.fix_type == 0 || pvt.fix_type >= time_only) return;
+        if (!possible(pvt)) return sink.refuse(Refusal::out_of_range);
+        sink.accept(time_of(pvt, frame), fix_of(pvt, tag_));
+    }
+
+    void give(const RawEpoch& epoch, const Frame& frame, MeasurementSink& sink) {
         if (!possible(epoch)) return sink.refuse(Refusal::out_of_range);
+        if (epoch.signals == 0) return;
+        const Timestamp time = time_of(epoch, frame);
         for (std::size_t i = 0; i < epoch.signals; ++i) {
             const RawSignal signal = parse_raw_signal(payload_of(frame.bytes), i);
             if (!signal.pseudorange_valid()) continue;
             if (possible(signal))
-                sink.accept(frame.begun, raw_of(epoch, signal, tag_));
+                sink.accept(time, raw_of(epoch, signal, tag_));
             else
                 sink.refuse(Refusal::out_of_range);
         }

@@ -2,10 +2,9 @@
 // of the satellites, out of one stream. What else the receiver says on the same line (NMEA, RTCM) counts as garbage: it
 // is best switched off for the port.
 //
-// A measurement has the time at which its frame began to come in, which is some 50 ms after the epoch that it is for
-// and shakes with the receiver's load. The epoch in GPS time stands in the messages (NavPvt::time_of_week_ms,
-// RawEpoch::receiver_time_s): counted in milliseconds it is the counter of a device, and drivers/device_clock brings
-// it to the host's clock like any other.
+// Fixes and raw measurements are dated by the receiver: the epoch that stands in NAV-PVT and RXM-RAWX is brought to the
+// host's clock (epoch_clock.h), so that neither the receiver's load nor the line shakes it. Messages that tell no time,
+// and all where use_receiver_time is false, have the time at which their frame began to come in.
 #pragma once
 
 #include "drivers/decoder.h"
@@ -14,10 +13,14 @@ namespace locus::gnss {
 
 struct UbxSettings {
     Address tag = no_address;
+    bool use_receiver_time = true;
 };
 
 inline constexpr std::array ubx_options{
     required_option<&UbxSettings::tag>("tag", "Address of the target that carries it."),
+    option<&UbxSettings::use_receiver_time>(
+        "use_receiver_time", "Whether fixes and raw measurements are dated by the receiver's time of week; else by "
+                             "their reception. What is common to all delays is taken off by delay_s."),
 };
 
 /// NAV-PVT gives a GnssFix, RXM-RAWX a GnssRaw for each valid pseudorange, RXM-SFRBX a GnssNavigation, ESF-MEAS a

@@ -45,6 +45,8 @@ struct NavPvt {
     std::uint16_t sigma_declination_1e2_deg = 0;
 
     bool operator==(const NavPvt&) const = default;
+    bool time_valid() const { return valid & 2; }
+    bool date_and_time_valid() const { return (valid & 3) == 3; }
     bool fix_ok() const { return flags & 1; }
     bool differential() const { return flags & 2; }
     unsigned carrier_solution() const { return flags >> 6; } ///< 1 float, 2 fixed

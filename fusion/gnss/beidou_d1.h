@@ -10,7 +10,9 @@
 
 namespace locus::gnss {
 
-/// Whether a satellite is geostationary: these broadcast D2, which is not read, and their orbit is computed otherwise.
+inline constexpr std::uint32_t d1_preamble = 0b11100010010; ///< D2 has the same
+
+/// Whether a satellite is geostationary: these broadcast D2, and their orbit is computed otherwise.
 constexpr bool beidou_geostationary(unsigned satellite) {
     return satellite <= 5 || (satellite >= 59 && satellite <= 63);
 }
@@ -24,5 +26,11 @@ unsigned d1_subframe_number(const MessageBits& subframe) noexcept;
 
 /// From subframes 1, 2 and 3; empty when they were not sent one after the other.
 std::optional<KeplerEphemeris> d1_ephemeris(std::span<const MessageBits, 3> subframes) noexcept;
+
+/// Subframes 1, 2 and 3 of the frame in which `sent` (GPS time) lies; empty when a value has no room in its field.
+std::optional<std::array<MessageBits, 3>> encode_d1(const KeplerEphemeris& ephemeris, const GpsTime& sent) noexcept;
+
+/// The words of a subframe, with their codes, as u-blox hands them over.
+std::array<std::uint32_t, 10> d1_words(const MessageBits& subframe) noexcept;
 
 } // namespace locus::gnss

@@ -27,6 +27,8 @@ struct KeplerEphemeris {
     double node = 0, node_rate = 0, perigee = 0; ///< node: at the week's beginning
     double cuc = 0, cus = 0, cic = 0, cis = 0;
     double crc_m = 0, crs_m = 0;
+
+    bool operator==(const KeplerEphemeris&) const = default;
 };
 
 /// GLONASS (ICD L1, L2, edition 5.1, table 4.5): a state vector in PZ-90 at the reference time.
@@ -40,6 +42,8 @@ struct GlonassEphemeris {
     double clock_drift = 0;    ///< gamma_n
     double frame_s_in_day = 0; ///< tk, Moscow time
     Vec3 position_m{}, velocity_mps{}, acceleration_mps2{};
+
+    bool operator==(const GlonassEphemeris&) const = default;
 };
 
 } // namespace locus::gnss

@@ -1,6 +1,7 @@
 #include "fusion/gnss/ephemeris_collector.h"
 
 #include "fusion/gnss/beidou_d1.h"
+#include "fusion/gnss/beidou_d2.h"
 #include "fusion/gnss/galileo_inav.h"
 #include "fusion/gnss/glonass_strings.h"
 #include "fusion/gnss/lnav.h"
@@ -24,6 +25,10 @@ auto place_of(Places& places, unsigned satellite) {
 bool is_lnav(std::uint8_t signal) { return signal == 0; }
 bool is_inav(std::uint8_t signal) { return signal == 0 || signal == 1 || signal == 5 || signal == 6; }
 bool is_d1(std::uint8_t signal) { return signal == 0 || signal == 2 || signal == 4; }
+bool is_d2(std::uint8_t signal) { return signal == 1 || signal == 3 || signal == 10; }
+
+/// 1 to 10: the geostationary ones are 1 to 5 and 59 to 63.
+unsigned geostationary_number(unsigned satellite) { return satellite <= 5 ? satellite : satellite - 53; }
 
 } // namespace
 
@@ -43,8 +48,11 @@ std::optional<Ephemeris> EphemerisCollector::add(const GnssNavigation& from, con
             return inav(*parts, words, now.week);
         break;
     case constellation::beidou:
-        if (auto* parts = place_of(beidou_, from.satellite);
-            parts && is_d1(from.signal) && !beidou_geostationary(from.satellite))
+        if (beidou_geostationary(from.satellite)) {
+            if (auto* parts = place_of(geostationary_, geostationary_number(from.satellite));
+                parts && is_d2(from.signal))
+                return d2(*parts, from, words);
+        } else if (auto* parts = place_of(beidou_, from.satellite); parts && is_d1(from.signal))
             return d1(*parts, from, words);
         break;
     case constellation::glonass:
@@ -81,6 +89,16 @@ std::optional<Ephemeris> EphemerisCollector::d1(Parts<3>& parts, const GnssNavig
     const auto subframe = d1_subframe(words);
     if (!subframe || !parts.put(d1_subframe_number(*subframe), *subframe)) return std::nullopt;
     auto ephemeris = d1_ephemeris(parts.parts);
+    if (!ephemeris) return std::nullopt;
+    ephemeris->satellite = from.satellite;
+    parts.have = 0;
+    return ephemeris;
+}
+
+std::optional<Ephemeris> EphemerisCollector::d2(Parts<10>& parts, const GnssNavigation& from, Words words) noexcept {
+    const auto subframe = d1_subframe(words);
+    if (!subframe || !parts.put(d2_page_number(*subframe), *subframe)) return std::nullopt;
+    auto ephemeris = d2_ephemeris(parts.parts);
     if (!ephemeris) return std::nullopt;
     ephemeris->satellite = from.satellite;
     parts.have = 0;

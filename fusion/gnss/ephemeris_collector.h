@@ -13,8 +13,8 @@ namespace locus::gnss {
 
 using Ephemeris = std::variant<KeplerEphemeris, GlonassEphemeris>;
 
-/// What is read: GPS L1 C/A, QZSS L1 C/A (LNAV), Galileo E1-B and E5b-I (I/NAV), BeiDou B1I, B2I, B3I (D1), GLONASS L1
-/// and L2. All memory is inside; about 100 kB.
+/// What is read: GPS L1 C/A, QZSS L1 C/A (LNAV), Galileo E1-B and E5b-I (I/NAV), BeiDou B1I, B2I, B3I (D1, D2), GLONASS
+/// L1 and L2. All memory is inside; about 100 kB.
 class EphemerisCollector {
   public:
     /// The ephemeris that these words made complete, also when it is the same as before. `now`: GPS time, give or take
@@ -28,6 +28,7 @@ class EphemerisCollector {
   private:
     static constexpr std::size_t gps_satellites = 32, qzss_satellites = 10, galileo_satellites = 36;
     static constexpr std::size_t beidou_satellites = 63, glonass_satellites = 32;
+    static constexpr std::size_t geostationary_satellites = 10;
 
     template <std::size_t count>
     struct Parts {
@@ -49,6 +50,7 @@ class EphemerisCollector {
     std::optional<Ephemeris> lnav(Parts<3>& parts, const GnssNavigation& from, Words words, int week) noexcept;
     std::optional<Ephemeris> inav(Parts<5>& parts, Words words, int week) noexcept;
     std::optional<Ephemeris> d1(Parts<3>& parts, const GnssNavigation& from, Words words) noexcept;
+    std::optional<Ephemeris> d2(Parts<10>& parts, const GnssNavigation& from, Words words) noexcept;
     std::optional<Ephemeris> glonass(GlonassParts& parts, const GnssNavigation& from, Words words,
                                      const GpsTime& now) const noexcept;
 
@@ -57,6 +59,7 @@ class EphemerisCollector {
     std::array<Parts<3>, qzss_satellites> qzss_{};
     std::array<Parts<5>, galileo_satellites> galileo_{};
     std::array<Parts<3>, beidou_satellites> beidou_{};
+    std::array<Parts<10>, geostationary_satellites> geostationary_{};
     std::array<GlonassParts, glonass_satellites> glonass_{};
 };
 

@@ -1,11 +1,13 @@
 #include "fusion/gnss/galileo_inav.h"
 
 #include "fusion/gnss/interface_pi.h"
+#include "fusion/gnss/message_fields.h"
 
 namespace locus::gnss {
 namespace {
 
 constexpr std::size_t words_per_part = 4;
+constexpr int inav_week_modulus = 4096;
 
 std::uint32_t crc24q(const MessageBits& bits) {
     constexpr std::uint32_t polynomial = 0x1864CFB;
@@ -27,34 +29,37 @@ void copy(const MessageBits& from, std::size_t begin, std::size_t length, Messag
     for (std::size_t i = 0; i < length; ++i) to.append(from.get(begin + i, 1), 1);
 }
 
-void read_orbit(std::span<const MessageBits, 5> words, KeplerEphemeris& e) {
-    e.toe_s = words[0].get(16, 14) * 60.0;
-    e.mean_anomaly = words[0].scaled_signed(30, 32, -31) * interface_pi;
-    e.eccentricity = words[0].scaled(62, 32, -33);
-    e.root_a = words[0].scaled(94, 32, -19);
-    e.node = words[1].scaled_signed(16, 32, -31) * interface_pi;
-    e.inclination = words[1].scaled_signed(48, 32, -31) * interface_pi;
-    e.perigee = words[1].scaled_signed(80, 32, -31) * interface_pi;
-    e.inclination_rate = words[1].scaled_signed(112, 14, -43) * interface_pi;
-    e.node_rate = words[2].scaled_signed(16, 24, -43) * interface_pi;
-    e.mean_motion_difference = words[2].scaled_signed(40, 16, -43) * interface_pi;
-    e.cuc = words[2].scaled_signed(56, 16, -29);
-    e.cus = words[2].scaled_signed(72, 16, -29);
-    e.crc_m = words[2].scaled_signed(88, 16, -5);
-    e.crs_m = words[2].scaled_signed(104, 16, -5);
-    e.accuracy = static_cast<std::uint8_t>(words[2].get(120, 8));
-    e.cic = words[3].scaled_signed(22, 16, -29);
-    e.cis = words[3].scaled_signed(38, 16, -29);
+template <class Walk, ConstOrNot<KeplerEphemeris> E>
+void walk_inav_orbit(Walk& walk, E& e) {
+    walk.scaled(e.toe_s, {{0, 16, 14}}, 0, 60);
+    walk.scaled_signed(e.mean_anomaly, {{0, 30, 32}}, -31, interface_pi);
+    walk.scaled(e.eccentricity, {{0, 62, 32}}, -33);
+    walk.scaled(e.root_a, {{0, 94, 32}}, -19);
+    walk.scaled_signed(e.node, {{1, 16, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.inclination, {{1, 48, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.perigee, {{1, 80, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.inclination_rate, {{1, 112, 14}}, -43, interface_pi);
+    walk.scaled_signed(e.node_rate, {{2, 16, 24}}, -43, interface_pi);
+    walk.scaled_signed(e.mean_motion_difference, {{2, 40, 16}}, -43, interface_pi);
+    walk.scaled_signed(e.cuc, {{2, 56, 16}}, -29);
+    walk.scaled_signed(e.cus, {{2, 72, 16}}, -29);
+    walk.scaled_signed(e.crc_m, {{2, 88, 16}}, -5);
+    walk.scaled_signed(e.crs_m, {{2, 104, 16}}, -5);
+    walk.number(e.accuracy, {{2, 120, 8}});
+    walk.scaled_signed(e.cic, {{3, 22, 16}}, -29);
+    walk.scaled_signed(e.cis, {{3, 38, 16}}, -29);
 }
 
-void read_clock(const MessageBits& fourth, const MessageBits& fifth, KeplerEphemeris& e) {
-    e.satellite = static_cast<std::uint8_t>(fourth.get(16, 6));
-    e.toc_s = fourth.get(54, 14) * 60.0;
-    e.clock_s = fourth.scaled_signed(68, 31, -34);
-    e.clock_drift = fourth.scaled_signed(99, 21, -46);
-    e.clock_drift_rate_per_s = fourth.scaled_signed(120, 6, -59);
-    e.group_delay_s = {fifth.scaled_signed(47, 10, -32), fifth.scaled_signed(57, 10, -32)};
-    e.health = static_cast<std::uint8_t>(fifth.get(67, 6));
+template <class Walk, ConstOrNot<KeplerEphemeris> E>
+void walk_inav_clock(Walk& walk, E& e) {
+    walk.number(e.satellite, {{3, 16, 6}});
+    walk.scaled(e.toc_s, {{3, 54, 14}}, 0, 60);
+    walk.scaled_signed(e.clock_s, {{3, 68, 31}}, -34);
+    walk.scaled_signed(e.clock_drift, {{3, 99, 21}}, -46);
+    walk.scaled_signed(e.clock_drift_rate_per_s, {{3, 120, 6}}, -59);
+    walk.scaled_signed(e.group_delay_s[0], {{4, 47, 10}}, -32);
+    walk.scaled_signed(e.group_delay_s[1], {{4, 57, 10}}, -32);
+    walk.number(e.health, {{4, 67, 6}});
 }
 
 } // namespace
@@ -81,12 +86,46 @@ std::optional<KeplerEphemeris> inav_ephemeris(std::span<const MessageBits, 5> wo
     e.issue = e.issue_clock = static_cast<std::uint16_t>(words[0].get(6, 10));
     for (const MessageBits& word : words.first<4>())
         if (word.get(6, 10) != e.issue) return std::nullopt;
-    read_orbit(words, e);
-    read_clock(words[3], words[4], e);
+    const FieldReader reader{words};
+    walk_inav_orbit(reader, e);
+    walk_inav_clock(reader, e);
     const int told = static_cast<int>(words[4].get(73, 12));
-    const int week = nearest_week(told, 4096, near_gps_week - galileo_week_ahead);
+    const int week = nearest_week(told, inav_week_modulus, near_gps_week - galileo_week_ahead);
     e.week = week_of(e.toe_s, {week, static_cast<double>(words[4].get(85, 20))});
     return e;
+}
+
+std::array<std::uint32_t, 8> inav_words(const MessageBits& word) noexcept {
+    MessageBits even, odd, checked;
+    even.append(0b00, 2);
+    copy(word, 0, 112, even);
+    odd.append(0b10, 2);
+    copy(word, 112, 16, odd);
+    odd.append(0, 32), odd.append(0, 32); // reserved, search and rescue, spare
+    copy(even, 0, 114, checked);
+    copy(odd, 0, 82, checked);
+    odd.append(crc24q(checked), 24);
+    std::array<std::uint32_t, 2 * words_per_part> words{};
+    for (std::size_t i = 0; i < words_per_part; ++i) {
+        words[i] = even.get(32 * i, 32);
+        words[words_per_part + i] = odd.get(32 * i, 32);
+    }
+    return words;
+}
+
+std::optional<std::array<MessageBits, 5>> encode_inav(const KeplerEphemeris& e, const GpsTime& sent) noexcept {
+    std::array<MessageBits, 5> words;
+    for (std::uint32_t i = 0; i < words.size(); ++i) {
+        words[i] = MessageBits{128}.set(0, 6, i + 1);
+        if (i < 4) words[i].set(6, 10, e.issue);
+    }
+    FieldWriter writer{words};
+    walk_inav_orbit(writer, e);
+    walk_inav_clock(writer, e);
+    words[4].set(73, 12, static_cast<std::uint32_t>((sent.week - galileo_week_ahead) % inav_week_modulus));
+    words[4].set(85, 20, static_cast<std::uint32_t>(sent.second));
+    if (!writer.fits() || e.issue > 1023) return std::nullopt;
+    return words;
 }
 
 } // namespace locus::gnss

@@ -19,4 +19,10 @@ unsigned inav_word_type(const MessageBits& word) noexcept;
 /// From words 1 to 5; empty when 1 to 4 are not of one issue. The group delays, health and time stand in word 5.
 std::optional<KeplerEphemeris> inav_ephemeris(std::span<const MessageBits, 5> words, int near_gps_week) noexcept;
 
+/// Words 1 to 5 as broadcast at `sent` (GPS time); empty when a value has no room in its field.
+std::optional<std::array<MessageBits, 5>> encode_inav(const KeplerEphemeris& ephemeris, const GpsTime& sent) noexcept;
+
+/// Both parts of the page of a word, with checksum, as u-blox hands them over.
+std::array<std::uint32_t, 8> inav_words(const MessageBits& word) noexcept;
+
 } // namespace locus::gnss

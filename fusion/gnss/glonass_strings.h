@@ -20,4 +20,10 @@ unsigned glonass_string_number(const MessageBits& string) noexcept;
 std::optional<GlonassEphemeris> glonass_ephemeris(std::span<const MessageBits, 4> strings, const GpsTime& near,
                                                   int leap_s) noexcept;
 
+/// Strings 1 to 4; empty when a value has no room in its field. The time of day is told to the quarter of an hour.
+std::optional<std::array<MessageBits, 4>> encode_glonass(const GlonassEphemeris& ephemeris, int leap_s) noexcept;
+
+/// The words of a string, with its check bits, as u-blox hands them over; `frame`: what the receiver counts them by.
+std::array<std::uint32_t, 4> glonass_words(MessageBits string, std::uint32_t frame) noexcept;
+
 } // namespace locus::gnss

@@ -9,6 +9,8 @@ inline constexpr double week_s = 604800;
 struct GpsTime {
     int week = 0;
     double second = 0;
+
+    bool operator==(const GpsTime&) const = default;
 };
 
 constexpr double operator-(const GpsTime& a, const GpsTime& b) {

@@ -1,6 +1,7 @@
 #include "fusion/gnss/lnav.h"
 
 #include "fusion/gnss/interface_pi.h"
+#include "fusion/gnss/message_fields.h"
 
 #include <bit>
 
@@ -9,6 +10,9 @@ namespace {
 
 constexpr std::size_t words_per_subframe = 10;
 constexpr std::uint32_t preamble = 0x8B;
+constexpr double subframe_s = 6;
+constexpr unsigned subframes_per_week = 100800;
+constexpr int week_modulus = 1024;
 
 /// IS-GPS-200 table 20-XIV: the data bits in each parity bit D25 to D30, and which parity bit of the word before.
 struct ParityBit {
@@ -18,44 +22,51 @@ struct ParityBit {
 constexpr std::array<ParityBit, 6> parity_bits{
     {{0xEC7CD2, 1}, {0x763E69, 0}, {0xBB1F34, 1}, {0x5D8F9A, 0}, {0xAEC7CD, 0}, {0x2DEA27, 1}}};
 
-/// `word` as it was sent but for its data bits, which stand as they were before sending; `before`: D29* and D30*.
-bool parity_good(std::uint32_t word, std::uint32_t before) {
-    const std::uint32_t data = word >> 6 & 0xFFFFFF;
+std::uint32_t parity_of(std::uint32_t data, std::uint32_t before) {
     std::uint32_t parity = 0;
     for (const ParityBit& bit : parity_bits)
         parity = parity << 1 | ((static_cast<unsigned>(std::popcount(data & bit.data)) ^ before >> bit.before) & 1);
-    return parity == (word & 63);
+    return parity;
 }
 
-void read_clock(const MessageBits& bits, KeplerEphemeris& e) {
-    e.accuracy = static_cast<std::uint8_t>(bits.get(60, 4));
-    e.health = static_cast<std::uint8_t>(bits.get(64, 6));
-    e.issue_clock = static_cast<std::uint16_t>(bits.get(70, 2) << 8 | bits.get(168, 8));
-    e.group_delay_s[0] = bits.scaled_signed(160, 8, -31);
-    e.toc_s = bits.scaled(176, 16, 4);
-    e.clock_drift_rate_per_s = bits.scaled_signed(192, 8, -55);
-    e.clock_drift = bits.scaled_signed(200, 16, -43);
-    e.clock_s = bits.scaled_signed(216, 22, -31);
+/// Words 2 and 10: their last two data bits are those with which the parity ends with 00.
+std::uint32_t with_tail(std::uint32_t data, std::uint32_t before) {
+    data &= ~3u;
+    while (parity_of(data, before) & 3) ++data;
+    return data;
 }
 
-void read_orbit(const MessageBits& second, const MessageBits& third, KeplerEphemeris& e) {
-    e.issue = static_cast<std::uint16_t>(second.get(48, 8));
-    e.crs_m = second.scaled_signed(56, 16, -5);
-    e.mean_motion_difference = second.scaled_signed(72, 16, -43) * interface_pi;
-    e.mean_anomaly = second.scaled_signed(88, 32, -31) * interface_pi;
-    e.cuc = second.scaled_signed(120, 16, -29);
-    e.eccentricity = second.scaled(136, 32, -33);
-    e.cus = second.scaled_signed(168, 16, -29);
-    e.root_a = second.scaled(184, 32, -19);
-    e.toe_s = second.scaled(216, 16, 4);
-    e.cic = third.scaled_signed(48, 16, -29);
-    e.node = third.scaled_signed(64, 32, -31) * interface_pi;
-    e.cis = third.scaled_signed(96, 16, -29);
-    e.inclination = third.scaled_signed(112, 32, -31) * interface_pi;
-    e.crc_m = third.scaled_signed(144, 16, -5);
-    e.perigee = third.scaled_signed(160, 32, -31) * interface_pi;
-    e.node_rate = third.scaled_signed(192, 24, -43) * interface_pi;
-    e.inclination_rate = third.scaled_signed(224, 14, -43) * interface_pi;
+template <class Walk, ConstOrNot<KeplerEphemeris> E>
+void walk_clock(Walk& walk, E& e) {
+    walk.number(e.accuracy, {{0, 60, 4}});
+    walk.number(e.health, {{0, 64, 6}});
+    walk.number(e.issue_clock, {{0, 70, 2}, {0, 168, 8}});
+    walk.scaled_signed(e.group_delay_s[0], {{0, 160, 8}}, -31);
+    walk.scaled(e.toc_s, {{0, 176, 16}}, 4);
+    walk.scaled_signed(e.clock_drift_rate_per_s, {{0, 192, 8}}, -55);
+    walk.scaled_signed(e.clock_drift, {{0, 200, 16}}, -43);
+    walk.scaled_signed(e.clock_s, {{0, 216, 22}}, -31);
+}
+
+template <class Walk, ConstOrNot<KeplerEphemeris> E>
+void walk_orbit(Walk& walk, E& e) {
+    walk.number(e.issue, {{1, 48, 8}});
+    walk.scaled_signed(e.crs_m, {{1, 56, 16}}, -5);
+    walk.scaled_signed(e.mean_motion_difference, {{1, 72, 16}}, -43, interface_pi);
+    walk.scaled_signed(e.mean_anomaly, {{1, 88, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.cuc, {{1, 120, 16}}, -29);
+    walk.scaled(e.eccentricity, {{1, 136, 32}}, -33);
+    walk.scaled_signed(e.cus, {{1, 168, 16}}, -29);
+    walk.scaled(e.root_a, {{1, 184, 32}}, -19);
+    walk.scaled(e.toe_s, {{1, 216, 16}}, 4);
+    walk.scaled_signed(e.cic, {{2, 48, 16}}, -29);
+    walk.scaled_signed(e.node, {{2, 64, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.cis, {{2, 96, 16}}, -29);
+    walk.scaled_signed(e.inclination, {{2, 112, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.crc_m, {{2, 144, 16}}, -5);
+    walk.scaled_signed(e.perigee, {{2, 160, 32}}, -31, interface_pi);
+    walk.scaled_signed(e.node_rate, {{2, 192, 24}}, -43, interface_pi);
+    walk.scaled_signed(e.inclination_rate, {{2, 224, 14}}, -43, interface_pi);
 }
 
 } // namespace
@@ -67,7 +78,7 @@ std::optional<MessageBits> lnav_subframe(std::span<const std::uint32_t> words) n
     for (const std::uint32_t word : words) {
         // After a word that ended with D30 = 1 the data bits are sent inverted. u-blox turns all of the word round.
         const std::uint32_t turned = before & 1 ? word ^ 63 : word;
-        if (!parity_good(turned, before)) return std::nullopt;
+        if (parity_of(turned >> 6 & 0xFFFFFF, before) != (turned & 63)) return std::nullopt;
         before = turned & 3;
         bits.append(word >> 6, 24);
     }
@@ -78,14 +89,43 @@ unsigned lnav_subframe_number(const MessageBits& subframe) noexcept { return sub
 
 std::optional<KeplerEphemeris> lnav_ephemeris(std::span<const MessageBits, 3> subframes, int near_week) noexcept {
     KeplerEphemeris e;
-    read_clock(subframes[0], e);
-    read_orbit(subframes[1], subframes[2], e);
+    const FieldReader reader{subframes};
+    walk_clock(reader, e);
+    walk_orbit(reader, e);
     const bool one_issue = e.issue == subframes[2].get(216, 8) && e.issue == (e.issue_clock & 0xFF);
     if (!one_issue) return std::nullopt;
-    const double sent_s = subframes[0].get(24, 17) * 6.0;
-    const GpsTime sent{nearest_week(static_cast<int>(subframes[0].get(48, 10)), 1024, near_week), sent_s};
+    const double sent_s = subframes[0].get(24, 17) * subframe_s;
+    const GpsTime sent{nearest_week(static_cast<int>(subframes[0].get(48, 10)), week_modulus, near_week), sent_s};
     e.week = week_of(e.toe_s, sent);
     return e;
+}
+
+std::array<std::uint32_t, 10> lnav_words(const MessageBits& subframe) noexcept {
+    std::array<std::uint32_t, words_per_subframe> words{};
+    std::uint32_t before = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::uint32_t data = subframe.get(24 * i, 24);
+        if (i == 1 || i == 9) data = with_tail(data, before);
+        const std::uint32_t parity = parity_of(data, before), sent = before << 30 | data << 6 | parity;
+        words[i] = before & 1 ? sent ^ 0xC000003F : sent;
+        before = parity & 3;
+    }
+    return words;
+}
+
+std::optional<std::array<MessageBits, 3>> encode_lnav(const KeplerEphemeris& e, const GpsTime& sent) noexcept {
+    std::array<MessageBits, 3> subframes{MessageBits{240}, MessageBits{240}, MessageBits{240}};
+    FieldWriter writer{subframes};
+    walk_clock(writer, e);
+    walk_orbit(writer, e);
+    const auto count = static_cast<std::uint32_t>(sent.second / subframe_s);
+    for (std::uint32_t i = 0; i < subframes.size(); ++i)
+        subframes[i].set(0, 8, preamble).set(24, 17, (count + i) % subframes_per_week).set(43, 3, i + 1);
+    subframes[0].set(48, 10, static_cast<std::uint32_t>(sent.week % week_modulus));
+    subframes[2].set(216, 8, e.issue);
+    const bool one_issue = e.issue == (e.issue_clock & 0xFF);
+    if (!writer.fits() || !one_issue) return std::nullopt;
+    return subframes;
 }
 
 } // namespace locus::gnss

@@ -19,4 +19,11 @@ unsigned lnav_subframe_number(const MessageBits& subframe) noexcept;
 /// From subframes 1, 2 and 3; empty when they are not of one issue. `near_week`: the GPS week, give or take 500.
 std::optional<KeplerEphemeris> lnav_ephemeris(std::span<const MessageBits, 3> subframes, int near_week) noexcept;
 
+/// Subframes 1, 2 and 3 as broadcast one after the other from `sent` on; empty when a value has no room in its field or
+/// the issues of clock and orbit are not one. What KeplerEphemeris does not hold (codes on L2, fit interval) is 0.
+std::optional<std::array<MessageBits, 3>> encode_lnav(const KeplerEphemeris& ephemeris, const GpsTime& sent) noexcept;
+
+/// The words of a subframe, with parity, as u-blox hands them over.
+std::array<std::uint32_t, 10> lnav_words(const MessageBits& subframe) noexcept;
+
 } // namespace locus::gnss

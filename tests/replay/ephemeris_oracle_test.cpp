@@ -3,9 +3,12 @@
 // gives no Galileo ephemeris from UBX; single_point_test checks those by where they put the receiver.
 #include "drivers/gnss/ubx.h"
 #include "drivers/gnss/ubx_messages.h"
+#include "fusion/gnss/beidou_d1.h"
+#include "fusion/gnss/glonass_strings.h"
+#include "fusion/gnss/lnav.h"
 #include "tests/replay/data.h"
 #include "tests/replay/gnss_replay.h"
-#include "tests/replay/rinex_oracle.h"
+#include "tests/replay/printed_ephemeris.h"
 #include "tests/support/navigation_words.h"
 
 #include <gtest/gtest.h>
@@ -13,47 +16,7 @@
 namespace locus::gnss {
 namespace {
 
-using test::Bits;
-
-/// The numbers of a record in its order; not all are comparable, those are left out as NaN.
-std::vector<double> as_printed(const KeplerEphemeris& e) {
-    constexpr double skip = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> numbers{e.clock_s,
-                                e.clock_drift,
-                                e.clock_drift_rate_per_s,
-                                static_cast<double>(e.issue),
-                                e.crs_m,
-                                e.mean_motion_difference,
-                                e.mean_anomaly,
-                                e.cuc,
-                                e.eccentricity,
-                                e.cus,
-                                e.root_a,
-                                e.toe_s,
-                                e.cic,
-                                e.node,
-                                e.cis,
-                                e.inclination,
-                                e.crc_m,
-                                e.perigee,
-                                e.node_rate,
-                                e.inclination_rate,
-                                skip};
-    const bool lnav = e.constellation != constellation::beidou;
-    numbers.push_back(e.week);
-    numbers.insert(numbers.end(), {skip, skip, static_cast<double>(e.health), e.group_delay_s[0]});
-    numbers.push_back(lnav ? e.issue_clock : e.group_delay_s[1]);
-    return numbers;
-}
-
-std::vector<double> as_printed(const GlonassEphemeris& e) {
-    std::vector<double> numbers{e.clock_s, e.clock_drift, std::numeric_limits<double>::quiet_NaN()};
-    const std::array<double, 3> ends{double(e.health), double(e.frequency), double(e.age_days)};
-    for (std::size_t i = 0; i < 3; ++i)
-        numbers.insert(numbers.end(),
-                       {e.position_m[i] / 1e3, e.velocity_mps[i] / 1e3, e.acceleration_mps2[i] / 1e3, ends[i]});
-    return numbers;
-}
+using test::random_bits;
 
 void expect_same(const std::map<std::string, Ephemeris>& ours, const test::Records& theirs) {
     for (const auto& [name, ephemeris] : ours) {
@@ -61,12 +24,7 @@ void expect_same(const std::map<std::string, Ephemeris>& ours, const test::Recor
             ADD_FAILURE() << "rtklib has no " << name;
             continue;
         }
-        const auto numbers = std::visit([](const auto& e) { return as_printed(e); }, ephemeris);
-        const auto& record = theirs.at(name);
-        ASSERT_GE(record.size(), numbers.size()) << name;
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-            EXPECT_TRUE(std::isnan(numbers[i]) || record[i].is(numbers[i]))
-                << name << ", number " << i << ": " << numbers[i] << ", rtklib " << record[i].value;
+        test::expect_same(name, ephemeris, theirs.at(name));
     }
 }
 
@@ -105,35 +63,47 @@ class RandomLog {
     }
 
     void lnav(std::uint8_t constellation, std::uint8_t satellite) {
-        const auto issue = random_() % 256;
+        const auto issue = static_cast<std::uint32_t>(random_() % 256);
         for (unsigned number = 1; number <= 3; ++number) {
-            Bits bits = Bits::random(240, random_).set(0, 8, 0x8B).set(24, 17, 68100 + number).set(43, 3, number);
+            MessageBits bits = random_bits(240, random_).set(0, 8, 0x8B).set(24, 17, 68100 + number).set(43, 3, number);
             if (number == 1) bits.set(48, 10, 2381 % 1024).set(168, 8, issue).set(176, 16, 410400 / 16);
             if (number == 2) bits.set(48, 8, issue).set(216, 16, 410400 / 16);
             if (number == 3) bits.set(216, 8, issue);
-            words(constellation, satellite, 0, test::lnav_words(bits));
+            words(constellation, satellite, 0, lnav_words(bits));
         }
     }
 
     void d1(std::uint8_t satellite) {
         constexpr std::uint32_t toe = 406800 / 8;
         for (unsigned number = 1; number <= 3; ++number) {
-            Bits bits = Bits::random(224, random_).set(0, 11, 0b11100010010).set(15, 3, number);
+            MessageBits bits = random_bits(224, random_).set(0, 11, d1_preamble).set(15, 3, number);
             bits.set(18, 20, 408594 + 6 * number);
             if (number == 1) bits.set(48, 13, 1025).set(61, 17, toe);
             if (number == 2) bits.set(222, 2, toe >> 15);
             if (number == 3) bits.set(38, 15, toe & 0x7FFF);
-            words(constellation::beidou, satellite, 0, test::d1_words(bits));
+            words(constellation::beidou, satellite, 0, d1_words(bits));
+        }
+    }
+
+    void d2(std::uint8_t satellite) {
+        constexpr std::uint32_t toe = 406800 / 8;
+        for (unsigned page = 1; page <= 10; ++page) {
+            MessageBits bits = random_bits(224, random_).set(0, 11, d1_preamble).set(15, 3, 1);
+            bits.set(18, 20, 408597 + 3 * page).set(38, 4, page);
+            if (page == 1) bits.set(52, 13, 1025).set(65, 17, toe);
+            if (page == 5) bits.set(96, 1, 0); // rtklib takes the eccentricity's highest bit for a sign
+            if (page == 7) bits.set(68, 17, toe);
+            words(constellation::beidou, satellite, 1, d1_words(bits));
         }
     }
 
     void glonass(std::uint8_t satellite, std::uint8_t slot) {
         for (unsigned number = 1; number <= 4; ++number) {
-            Bits bits = Bits::random(85, random_).set(0, 1, 0).set(1, 4, number);
+            MessageBits bits = random_bits(85, random_).set(0, 1, 0).set(1, 4, number);
             if (number == 1) bits.set(9, 5, 20).set(14, 6, 29);
             if (number == 2) bits.set(9, 7, 82); // 20:30 in Moscow
             if (number == 4) bits.set(70, 5, satellite);
-            words(constellation::glonass, satellite, 0, test::glonass_words(bits, 0x105), slot);
+            words(constellation::glonass, satellite, 0, glonass_words(bits, 0x105), slot);
         }
     }
 
@@ -144,9 +114,9 @@ class RandomLog {
     void append(const std::vector<std::uint8_t>& frame) { bytes_.insert(bytes_.end(), frame.begin(), frame.end()); }
 
     void words(std::uint8_t constellation, std::uint8_t satellite, std::uint8_t signal,
-               const std::vector<std::uint32_t>& words, std::uint8_t slot = 0) {
+               std::span<const std::uint32_t> words, std::uint8_t slot = 0) {
         ubx::Subframe subframe{constellation, satellite, signal, slot, static_cast<std::uint8_t>(words.size())};
-        std::copy(words.begin(), words.end(), subframe.words.begin());
+        std::ranges::copy(words, subframe.words.begin());
         append(encode(subframe));
     }
 };
@@ -160,10 +130,11 @@ TEST(EphemerisOracle, OfRandomMessagesAllFieldsAreRtklibs) {
         log.d1(static_cast<std::uint8_t>(satellite + 5));
         log.glonass(satellite, satellite % 14);
         if (satellite <= 7) log.lnav(constellation::qzss, satellite);
+        if (satellite <= 5) log.d2(satellite);
     }
     log.epoch();
     const auto ours = decode(log.bytes()).ephemerides;
-    EXPECT_EQ(ours.size(), 3 * 20u + 7);
+    EXPECT_EQ(ours.size(), 3 * 20u + 7 + 5);
     expect_same(ours, test::convbin(log.bytes()));
 }
 

@@ -19,7 +19,8 @@ struct Printed {
     double value = 0;
     double unit = 0; ///< of the last digit
 
-    bool is(double other) const { return std::abs(other - value) <= 0.51 * unit; }
+    /// Writers make decimals with errors of their own, in the last digit but one behind it.
+    bool is(double other) const { return std::abs(other - value) <= 0.56 * unit; }
 };
 
 using Records = std::map<std::string, std::vector<Printed>>; ///< by satellite, the last one of each
@@ -33,19 +34,33 @@ inline Printed printed(std::string field) {
     return {std::stod(field), std::pow(10.0, std::stoi(field.substr(d + 1)) - 12)};
 }
 
-/// Four fields of 19 characters behind 4 of indentation, the first line of a record has three behind 23.
-inline Records read_rinex_navigation(const std::string& path) {
-    Records records;
+struct Record {
+    std::string satellite; ///< G05; version 2 does not say the letter
+    std::vector<Printed> numbers;
+};
+
+/// Fields of 19 characters, four behind 4 of indentation, three behind 23 in a record's first line; in version 2 it is
+/// one less.
+inline std::vector<Record> read_rinex_records(const std::string& path) {
+    std::vector<Record> records;
     std::ifstream file(path);
-    std::string line, satellite;
+    std::string line;
+    std::getline(file, line);
+    const std::size_t less = line.find('2') < 6 ? 1 : 0; // of "     2.11" and "     2"; version 3.02 has its 2 later
     while (std::getline(file, line) && line.find("END OF HEADER") == std::string::npos) {
     }
     while (std::getline(file, line)) {
-        const bool first = line[0] != ' ';
-        if (first) records[satellite = line.substr(0, 3)].clear();
-        for (std::size_t at = first ? 23 : 4; at + 19 <= line.size(); at += 19)
-            records[satellite].push_back(printed(line.substr(at, 19)));
+        const bool first = line.find_first_not_of(' ') < 3 - less;
+        if (first) records.push_back({line.substr(0, 3 - less), {}});
+        for (std::size_t at = (first ? 23 : 4) - less; at + 19 <= line.size(); at += 19)
+            records.back().numbers.push_back(printed(line.substr(at, 19)));
     }
+    return records;
+}
+
+inline Records read_rinex_navigation(const std::string& path) {
+    Records records;
+    for (auto& record : read_rinex_records(path)) records[record.satellite] = std::move(record.numbers);
     return records;
 }
 

@@ -5,6 +5,7 @@
 #include "fusion/gnss/galileo_inav.h"
 #include "fusion/gnss/glonass_strings.h"
 #include "fusion/gnss/lnav.h"
+#include "fusion/gnss/message_fields.h"
 #include "tests/allocations.h"
 #include "tests/support/navigation_words.h"
 
@@ -15,8 +16,10 @@
 namespace locus::gnss {
 namespace {
 
-using test::Bits;
+using Bits = MessageBits;
 using Words = std::vector<std::uint32_t>;
+
+Words listed(const auto& words) { return Words(words.begin(), words.end()); }
 
 constexpr GpsTime now{2381, 408600};
 constexpr double pi = 3.1415926535898;
@@ -64,18 +67,18 @@ TEST(Ephemeris, EveryBrokenBitIsNoticed) {
     };
     std::mt19937 random{7};
     const auto mixed = [&](Bits bits, std::size_t from) {
-        for (std::size_t i = from; i < bits.bits.size(); ++i) bits.bits[i] = random() >> 9 & 1;
+        for (std::size_t i = from; i < bits.size(); ++i) bits.set(i, 1, static_cast<std::uint32_t>(random() >> 9));
         return bits;
     };
-    refused(test::lnav_words(mixed(lnav(4), 48)), 30, [](const Words& w) { return lnav_subframe(w).has_value(); });
-    const Words string = test::glonass_words(mixed(glonass(5), 5), 0);
+    refused(listed(lnav_words(mixed(lnav(4), 48))), 30, [](const Words& w) { return lnav_subframe(w).has_value(); });
+    const Words string = listed(glonass_words(mixed(glonass(5), 5), 0));
     refused({string[0], string[1]}, 32,
             [&](const Words& w) { return glonass_string(Words{w[0], w[1], string[2]}).has_value(); });
-    const Words page = test::inav_words(mixed(inav(1), 6));
+    const Words page = listed(inav_words(mixed(inav(1), 6)));
     refused({page[0], page[1], page[2]}, 32, [&](const Words& w) {
         return inav_word(Words{w[0], w[1], w[2], page[3], page[4], page[5], page[6], page[7]}).has_value();
     });
-    const Words subframe = test::d1_words(mixed(d1(4), 38));
+    const Words subframe = listed(d1_words(mixed(d1(4), 38)));
     refused(Words(subframe.begin() + 1, subframe.end()), 30, [&](Words w) {
         w.insert(w.begin(), subframe[0]);
         return d1_subframe(w).has_value();
@@ -95,11 +98,12 @@ class Collect : public testing::Test {
   protected:
     EphemerisCollector collector;
 
-    std::optional<Ephemeris> add(std::uint8_t constellation, const Words& words, std::uint8_t satellite = 11) {
+    std::optional<Ephemeris> add(std::uint8_t constellation, std::span<const std::uint32_t> words,
+                                 std::uint8_t satellite = 11) {
         return collector.add(test::navigation(constellation, satellite, 0, words, 9), now);
     }
     std::optional<Ephemeris> lnav_part(unsigned number, unsigned issue = 7) {
-        return add(constellation::gps, test::lnav_words(lnav(number, issue)));
+        return add(constellation::gps, lnav_words(lnav(number, issue)));
     }
 };
 
@@ -128,36 +132,36 @@ TEST_F(Collect, PartsOfTwoIssuesAreNotMixed) {
 TEST_F(Collect, PartsOfTwoSatellitesAreNotMixed) {
     EXPECT_FALSE(lnav_part(1));
     EXPECT_FALSE(lnav_part(2));
-    EXPECT_FALSE(add(constellation::gps, test::lnav_words(lnav(3)), 12));
-    EXPECT_FALSE(add(constellation::qzss, test::lnav_words(lnav(3)), 10));
+    EXPECT_FALSE(add(constellation::gps, lnav_words(lnav(3)), 12));
+    EXPECT_FALSE(add(constellation::qzss, lnav_words(lnav(3)), 10));
     EXPECT_TRUE(lnav_part(3));
 }
 
 TEST_F(Collect, Galileo) {
-    for (unsigned type = 1; type <= 4; ++type) EXPECT_FALSE(add(constellation::galileo, test::inav_words(inav(type))));
-    const auto ephemeris = add(constellation::galileo, test::inav_words(inav(5)));
+    for (unsigned type = 1; type <= 4; ++type) EXPECT_FALSE(add(constellation::galileo, inav_words(inav(type))));
+    const auto ephemeris = add(constellation::galileo, inav_words(inav(5)));
     ASSERT_TRUE(ephemeris);
     EXPECT_EQ(std::get<KeplerEphemeris>(*ephemeris).week, 1357);
     EXPECT_EQ(std::get<KeplerEphemeris>(*ephemeris).toe_s, 408000);
-    EXPECT_FALSE(add(constellation::galileo, test::inav_words(inav(1, 8))));
-    for (unsigned type = 2; type <= 5; ++type) EXPECT_FALSE(add(constellation::galileo, test::inav_words(inav(type))));
+    EXPECT_FALSE(add(constellation::galileo, inav_words(inav(1, 8))));
+    for (unsigned type = 2; type <= 5; ++type) EXPECT_FALSE(add(constellation::galileo, inav_words(inav(type))));
 }
 
 TEST_F(Collect, Beidou) {
-    EXPECT_FALSE(add(constellation::beidou, test::d1_words(d1(1))));
-    EXPECT_FALSE(add(constellation::beidou, test::d1_words(d1(2))));
-    EXPECT_FALSE(add(constellation::beidou, test::d1_words(d1(3, 408630)))) << "of the next frame";
-    const auto ephemeris = add(constellation::beidou, test::d1_words(d1(3)));
+    EXPECT_FALSE(add(constellation::beidou, d1_words(d1(1))));
+    EXPECT_FALSE(add(constellation::beidou, d1_words(d1(2))));
+    EXPECT_FALSE(add(constellation::beidou, d1_words(d1(3, 408630)))) << "of the next frame";
+    const auto ephemeris = add(constellation::beidou, d1_words(d1(3)));
     ASSERT_TRUE(ephemeris);
     EXPECT_EQ(std::get<KeplerEphemeris>(*ephemeris).week, 1025);
     EXPECT_EQ(std::get<KeplerEphemeris>(*ephemeris).toe_s, 406800);
     for (unsigned number = 1; number <= 3; ++number)
-        EXPECT_FALSE(add(constellation::beidou, test::d1_words(d1(number)), 3)) << "geostationary ones send D2";
+        EXPECT_FALSE(add(constellation::beidou, d1_words(d1(number)), 3)) << "geostationary ones send D2";
 }
 
 TEST_F(Collect, Glonass) {
     const auto part = [&](unsigned number, unsigned frame) {
-        return add(constellation::glonass, test::glonass_words(glonass(number), frame), 9);
+        return add(constellation::glonass, glonass_words(glonass(number), frame), 9);
     };
     for (unsigned number = 1; number <= 3; ++number) EXPECT_FALSE(part(number, 1));
     EXPECT_FALSE(part(4, 2)) << "of the next frame";
@@ -183,9 +187,9 @@ TEST_F(Collect, HostileNumbersAreNothing) {
 TEST_F(Collect, AllocatesNothing) {
     std::vector<GnssNavigation> all;
     for (unsigned number = 1; number <= 3; ++number)
-        all.push_back(test::navigation(constellation::gps, 11, 0, test::lnav_words(lnav(number))));
+        all.push_back(test::navigation(constellation::gps, 11, 0, lnav_words(lnav(number))));
     for (unsigned number = 1; number <= 4; ++number)
-        all.push_back(test::navigation(constellation::glonass, 9, 0, test::glonass_words(glonass(number), 1)));
+        all.push_back(test::navigation(constellation::glonass, 9, 0, glonass_words(glonass(number), 1)));
     int made = 0;
     const test::AllocationCount allocations;
     for (const auto& one : all) made += collector.add(one, now).has_value();
@@ -203,18 +207,52 @@ TEST(GnssTime, WeeksAreThoseNearest) {
     EXPECT_EQ((GpsTime{5, 10} + -20) - (GpsTime{4, 604790}), 0);
 }
 
-TEST(MessageBits, SignsAndScales) {
+TEST(MessageBits, AreKeptInOrderAndSetInPlace) {
     MessageBits bits;
     bits.append(0b1011, 4);
     bits.append(0x80000001, 32);
     EXPECT_EQ(bits.get(0, 4), 11u);
-    EXPECT_EQ(bits.get_signed(0, 4), -5);
-    EXPECT_EQ(bits.get_magnitude(0, 4), -3);
-    EXPECT_EQ(bits.get_signed(4, 32), -2147483647);
-    EXPECT_EQ(bits.scaled_signed(0, 4, -2) * pi, -1.25 * pi);
+    EXPECT_EQ(bits.get(4, 32), 0x80000001u);
     EXPECT_EQ(bits.get(34, 4), 0b0100u) << "beyond the end there are zeros";
+    bits.set(2, 4, 0b0110).set(34, 8, 0xFF);
+    EXPECT_EQ(bits.get(0, 8), 0b10011000u);
+    EXPECT_EQ(bits.get(34, 8), 0b11000000u);
     for (int i = 0; i < 10; ++i) bits.append(~0u, 32);
     EXPECT_EQ(bits.size(), MessageBits::capacity);
+}
+
+TEST(MessageFields, SignsAndScales) {
+    std::array parts{MessageBits{4}.set(0, 4, 0b1011), MessageBits{32}.set(0, 32, 0x80000001)};
+    const FieldReader reader{parts};
+    double value = 0;
+    reader.scaled(value, {{0, 0, 4}}, 1);
+    EXPECT_EQ(value, 22);
+    reader.scaled_signed(value, {{0, 0, 4}}, -2, pi);
+    EXPECT_EQ(value, -1.25 * pi);
+    reader.scaled_magnitude(value, {{0, 0, 4}}, 0, 60);
+    EXPECT_EQ(value, -180);
+    reader.scaled_signed(value, {{1, 0, 32}}, 0);
+    EXPECT_EQ(value, -2147483647);
+    reader.scaled_signed(value, {{0, 0, 2}, {1, 30, 2}}, 0);
+    EXPECT_EQ(value, -7) << "in two pieces";
+}
+
+TEST(MessageFields, WhatHasNoRoomIsToldAndNotWritten) {
+    const auto fits = [](auto write) {
+        std::array parts{MessageBits{8}};
+        FieldWriter writer{parts};
+        write(writer);
+        return writer.fits();
+    };
+    EXPECT_TRUE(fits([](auto& w) { w.scaled(255.4, {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled(255.6, {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled(-1, {{0, 0, 8}}, 0); }));
+    EXPECT_TRUE(fits([](auto& w) { w.scaled_signed(-128, {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled_signed(128, {{0, 0, 8}}, 0); }));
+    EXPECT_TRUE(fits([](auto& w) { w.scaled_magnitude(-127, {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled_magnitude(-128, {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled_signed(std::nan(""), {{0, 0, 8}}, 0); }));
+    EXPECT_FALSE(fits([](auto& w) { w.scaled(1e300, {{0, 0, 8}}, -9); }));
 }
 
 } // namespace
