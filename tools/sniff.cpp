@@ -85,9 +85,6 @@ int list_frames(const SniffOptions& options, const Source& source) {
 /// What comes at one rate; nothing when the port cannot be opened, or somebody pressed Ctrl-C.
 std::optional<Capture> listen_at(const Source& source, int baud_bd) {
     Source at_rate = source;
-    at_rate.transport_settings = source.transport->options.make();
-    for (const OptionRow& row : source.transport->options.rows)
-        row.set(at_rate.transport_settings.get(), row.get(source.transport_settings.get()));
     at_rate.set_baud_rate(baud_bd);
     const auto transport = opened(at_rate);
     if (!transport || tools::interrupted()) return std::nullopt;

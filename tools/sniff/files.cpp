@@ -1,6 +1,7 @@
 #include "tools/sniff/files.h"
 
 #include "drivers/recording/log_line.h"
+#include "tools/client/fields.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,7 +59,7 @@ std::optional<std::string> recorded_input(const std::string& path, const std::st
     const auto inputs = inputs_of(path);
     if (inputs.contains(wanted)) return wanted;
     if (wanted.empty() && inputs.size() == 1) return *inputs.begin();
-    const std::string names = fmt::format("{}", fmt::join(inputs, ", "));
+    const std::string names = tools::printable(fmt::format("{}", fmt::join(inputs, ", ")));
     if (inputs.empty())
         error = fmt::format("'{}' is no recording: no line of it is like (12.345678) uwb serial#4D43; a file of raw "
                             "bytes must not end in .log",

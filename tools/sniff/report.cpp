@@ -130,10 +130,10 @@ nlohmann::json ids_json(const std::vector<Census>& ids) {
     return list;
 }
 
-std::string yaml_of(const Lines& transport, std::string_view name, std::string_view decoder) {
+std::string yaml_of(const Source& source, std::string_view name, const DecoderRow& decoder) {
     std::string text = fmt::format("inputs:\n  - name: {}\n", name);
-    for (const std::string& line : transport) text += "    " + line + "\n";
-    return text + fmt::format("    decoder: {}\n", decoder);
+    for (const std::string& line : source.lines(decoder)) text += "    " + line + "\n";
+    return text + fmt::format("    decoder: {}\n", decoder.name);
 }
 
 } // namespace
@@ -194,14 +194,14 @@ std::string findings_json(const Findings& findings, const Source& source) {
 }
 
 std::string input_yaml(const Standing& standing, const Source& source) {
-    std::string text = yaml_of(source.lines(), standing.decoder->name, standing.decoder->name);
+    std::string text = yaml_of(source, standing.decoder->name, *standing.decoder);
     for (const std::string& line : settings_lines(standing.decoder->options, standing.settings.get()))
         text += "    " + line + "\n";
     return text;
 }
 
 std::string input_yaml(const FrameGuess& guess, const Source& source) {
-    return yaml_of(source.lines(), "unknown", "serial_layout") + layout_text(guess.layout, 4);
+    return yaml_of(source, "unknown", *find_decoder("serial_layout")) + layout_text(guess.layout, 4);
 }
 
 } // namespace locus::sniff

@@ -169,14 +169,21 @@ std::string stable_name(const std::string& path) {
     return path;
 }
 
+/// A file does not say what it was recorded from.
+std::vector<std::string> lines_of_a_device(const DecoderRow& decoder) {
+    if (decoder.wire == Wire::can) return {"transport: can", "interface: can0 # or whatever it was recorded from"};
+    if (decoder.datagrams) return {"transport: udp", "port: 21211 # the one that it sends to"};
+    return {"transport: serial", "path: /dev/serial/by-id/... # the device that it was recorded from"};
+}
+
 } // namespace
 
 std::unique_ptr<Transport> Source::make_transport() const {
     return transport ? transport->make(transport_settings.get()) : raw_file(path);
 }
 
-std::vector<std::string> Source::lines() const {
-    if (is_file) return {"transport: serial", "path: /dev/serial/by-id/... # the device that it was recorded from"};
+std::vector<std::string> Source::lines(const DecoderRow& decoder) const {
+    if (is_file) return lines_of_a_device(decoder);
     std::vector<std::string> lines{fmt::format("transport: {}", transport->name)};
     for (const std::string& line : settings_lines(transport->options, transport_settings.get())) {
         const std::string value = line.substr(line.find(": ") + 2);
@@ -187,6 +194,9 @@ std::vector<std::string> Source::lines() const {
 }
 
 void Source::set_baud_rate(int baud_bd) {
+    const auto own = transport->options.make();
+    for (const OptionRow& row : transport->options.rows) row.set(own.get(), row.get(transport_settings.get()));
+    transport_settings = own;
     set_option(transport->options, transport_settings.get(), "baud_bd", std::int64_t{baud_bd});
 }
 

@@ -27,9 +27,10 @@ struct Source {
     bool is_file = false; ///< it ends by itself
 
     std::unique_ptr<Transport> make_transport() const;
-    /// The transport's lines of a configuration, with the device's name that survives replugging.
-    std::vector<std::string> lines() const;
+    /// The transport's lines of a configuration for a decoder, with the device's name that survives replugging.
+    std::vector<std::string> lines(const DecoderRow& decoder) const;
     bool has_baud_rate() const { return transport && transport->name == "serial"; }
+    /// Of this one alone, not of those that it was copied from.
     void set_baud_rate(int baud_bd);
 };
 

@@ -83,14 +83,23 @@ TEST_F(SniffCommand, RecognisesAFileOfBytesAndGivesWhatToType) {
 
 TEST_F(SniffCommand, WhatToTypeIsGoodForEveryDecoder) {
     for (const auto& example : examples::all()) {
-        if (example.chunks.empty() || find_decoder(example.decoder)->datagrams) continue;
-        std::string bytes;
-        for (const auto& chunk : example.chunks) bytes += text_of(chunk);
-        const auto answer = json::parse(sniff({write("bytes.bin", bytes), "--json"}).out);
-        for (const auto& winner : answer["winners"]) {
-            const auto loaded = load_settings_text(winner["yaml"].get<std::string>(), "pasted");
-            EXPECT_TRUE(loaded.settings) << winner["yaml"] << to_string(loaded.problems.front());
+        if (!find_decoder(example.decoder)->options.lists.empty()) continue; // layouts
+        std::string log;
+        for (std::size_t i = 0; i < example.chunks.size() + example.frames.size(); ++i) {
+            Packet packet = example.frames.empty() ? Packet{} : example.frames[i].packet({});
+            packet.time = timestamp_from_s(0.2 * static_cast<double>(i));
+            if (example.frames.empty())
+                packet.data = example.chunks[i];
+            else
+                packet.time = timestamp_from_s(0.001 * static_cast<double>(i));
+            log += to_log_line("it", packet) + "\n";
         }
+        const auto answer = json::parse(sniff({write("it.log", log), "--json"}).out);
+        ASSERT_EQ(answer["winners"].size(), 1u) << example.decoder;
+        EXPECT_EQ(answer["winners"][0]["decoder"], example.decoder);
+        const auto yaml = answer["winners"][0]["yaml"].get<std::string>();
+        const auto loaded = load_settings_text(yaml, "pasted");
+        EXPECT_TRUE(loaded.settings) << yaml << to_string(loaded.problems.front());
     }
 }
 
