@@ -182,8 +182,8 @@ std::unique_ptr<Transport> Source::make_transport() const {
     return transport ? transport->make(transport_settings.get()) : raw_file(path);
 }
 
-std::vector<std::string> Source::lines(const DecoderRow& decoder) const {
-    if (is_file) return lines_of_a_device(decoder);
+std::vector<std::string> Source::lines(const DecoderRow& reader) const {
+    if (is_file) return lines_of_a_device(reader);
     std::vector<std::string> lines{fmt::format("transport: {}", transport->name)};
     for (const std::string& line : settings_lines(transport->options, transport_settings.get())) {
         const std::string value = line.substr(line.find(": ") + 2);

@@ -28,7 +28,7 @@ struct Source {
 
     std::unique_ptr<Transport> make_transport() const;
     /// The transport's lines of a configuration for a decoder, with the device's name that survives replugging.
-    std::vector<std::string> lines(const DecoderRow& decoder) const;
+    std::vector<std::string> lines(const DecoderRow& reader) const;
     bool has_baud_rate() const { return transport && transport->name == "serial"; }
     /// Of this one alone, not of those that it was copied from.
     void set_baud_rate(int baud_bd);
