@@ -52,7 +52,7 @@ std::optional<std::int64_t> DeviceClock::ticks_since_last(std::uint64_t count, T
     const std::uint64_t difference = count - last_count_ - static_cast<std::uint64_t>(nearest);
     const std::int64_t off = wire::sign_extended(difference, bits_);
     const double ahead_s = static_cast<double>(off) * tick_s_;
-    if (std::abs(ahead_s) > restart_s + largest_drift * elapsed_s) return std::nullopt;
+    if (std::abs(ahead_s) > limits_.restart_s + limits_.largest_drift * elapsed_s) return std::nullopt;
     return nearest + off < 0 ? std::nullopt : std::optional{nearest + off};
 }
 
@@ -72,11 +72,11 @@ Timestamp DeviceClock::begin(std::uint64_t count, Timestamp received) {
 }
 
 bool DeviceClock::is_jump(double above_s, Timestamp received) {
-    if (above_s <= jump_s)
+    if (above_s <= limits_.jump_s)
         late_since_.reset();
     else if (!late_since_)
         late_since_ = received;
-    return above_s < -jump_s || (late_since_ && received - *late_since_ > patience);
+    return above_s < -limits_.jump_s || (late_since_ && received - *late_since_ > limits_.patience);
 }
 
 /// The lowest of its bucket is kept; what lies below the line moves it down at once.
@@ -113,7 +113,7 @@ void DeviceClock::fit() {
     }
     for (std::size_t i = 1; i < size; ++i)
         if (hull[i].device_s >= mean_s || i + 1 == size) {
-            drift_ = std::clamp(slope(hull[i - 1], hull[i]), -largest_drift, largest_drift);
+            drift_ = std::clamp(slope(hull[i - 1], hull[i]), -limits_.largest_drift, limits_.largest_drift);
             break;
         }
     offset_s_ = infinity;

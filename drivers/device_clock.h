@@ -23,22 +23,28 @@ namespace locus {
 
 class DeviceClock {
   public:
-    /// Crystals are sold with 20 to 100 ppm over temperature, two clocks differ by twice that. Ceramic resonators have
-    /// up to 5000 ppm (Murata CSTCE): those are not followed by the line, but by beginning anew.
-    static constexpr double largest_drift = 500e-6;
     static constexpr std::size_t buckets = 32;
     static constexpr double bucket_s = 2; ///< the window is about a minute: temperature moves a crystal more slowly
-    /// Below the line by more: the counter jumped ahead. Three times what USB serial converters hold back (16 ms, the
-    /// latency timer of FTDI AN232B-04).
-    static constexpr double jump_s = 0.05;
-    /// Above the line by more than jump_s for so long: the counter fell back. After a stall of the host the last of
-    /// what had waited is on time again, so packets that are all late do not come from a stall.
-    static constexpr Duration patience = std::chrono::milliseconds{500};
-    /// One step off what the host's clock says by more: the counter began again.
-    static constexpr double restart_s = 1;
+
+    /// What no transport does, so that the counter must have jumped.
+    struct Limits {
+        /// Crystals are sold with 20 to 100 ppm over temperature, two clocks differ by twice that. Ceramic resonators
+        /// have up to 5000 ppm (Murata CSTCE): those are not followed by the line, but by beginning anew.
+        double largest_drift = 500e-6;
+        /// One step off what the host's clock says by more: the counter began again.
+        double restart_s = 1;
+        /// Below the line by more: the counter jumped ahead. Three times what USB serial converters hold back (16 ms,
+        /// the latency timer of FTDI AN232B-04).
+        double jump_s = 0.05;
+        /// Above the line by more than jump_s for so long: the counter fell back. After a stall of the host the last of
+        /// what had waited is on time again, so packets that are all late do not come from a stall.
+        Duration patience = std::chrono::milliseconds{500};
+    };
 
     /// `tick_s` is the nominal time from one count to the next; the counter wraps around after 2^bits (1 to 64) counts.
-    DeviceClock(double tick_s, unsigned bits) : tick_s_{tick_s}, bits_{bits} {}
+    DeviceClock(double tick_s, unsigned bits) : DeviceClock{tick_s, bits, Limits{}} {}
+    /// For devices whose samples are late by more, or come more seldom.
+    DeviceClock(double tick_s, unsigned bits, const Limits& limits) : tick_s_{tick_s}, bits_{bits}, limits_{limits} {}
 
     /// When the device's counter stood at `count`, for a packet that was received at `received`: not after any
     /// reception until now, and not before what was said for an earlier packet since the estimate last began.
@@ -77,6 +83,7 @@ class DeviceClock {
 
     double tick_s_;
     unsigned bits_;
+    Limits limits_;
 
     bool begun_ = false;
     std::uint64_t beginnings_ = 0;

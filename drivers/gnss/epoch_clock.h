@@ -29,8 +29,14 @@ class EpochClock {
     void reset();
 
   private:
+    /// Epochs come once a second or ten times, and late by what the receiver computes, which grows with its load: some
+    /// 0.1 s. Those who set their time do it by seconds: a step of one (a leap second that was not told) is a restart.
+    /// GPS time does not drift, only the host's crystal does.
+    static constexpr DeviceClock::Limits limits{
+        .largest_drift = 100e-6, .restart_s = 0.8, .jump_s = 0.25, .patience = std::chrono::seconds{5}};
+
     std::int64_t period_ns_;
-    DeviceClock clock_{1e-9, 64};
+    DeviceClock clock_{1e-9, 64, limits};
     bool begun_ = false;
     std::int64_t told_ns_ = 0;
     std::uint64_t count_ns_ = 0; ///< the same, never beginning anew

@@ -12,9 +12,9 @@ namespace locus::gnss {
 struct NmeaSettings {
     Address tag = no_address;
     bool need_checksum = true;
-    bool use_receiver_time = true;
     /// Kaplan, Hegarty: Understanding GPS, 2nd ed., table 7.4: user range error of one frequency, 1 sigma.
     double range_error_m = 7.1;
+    bool use_receiver_time = true;
 };
 
 inline constexpr std::array nmea_options{
