@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace locus::uwb {
+namespace locus::uwb::clock_graph_test {
 namespace {
 
 constexpr double interval_s = 0.15;
@@ -127,4 +127,4 @@ TEST(ClockGraph, ATransmitterLongSilentGivesItsPlaceToAnother) {
 }
 
 } // namespace
-} // namespace locus::uwb
+} // namespace locus::uwb::clock_graph_test

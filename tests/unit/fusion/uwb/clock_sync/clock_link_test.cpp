@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace locus::uwb {
+namespace locus::uwb::clock_link_test {
 namespace {
 
 constexpr double interval_s = 0.15;
@@ -158,4 +158,4 @@ TEST(ClockTrack, FindsTheRateOfTheRealSyncPackets) {
 }
 
 } // namespace
-} // namespace locus::uwb
+} // namespace locus::uwb::clock_link_test
