@@ -12,9 +12,11 @@ namespace locus {
 namespace config {
 namespace {
 
-constexpr std::array<FlatSection, 4> flat{{
+constexpr std::array<FlatSection, 5> flat{{
     {"fusion", "The engine: how often, how late, how many.", fusion_options,
      [](Settings& settings) -> void* { return &settings.engine.fusion; }},
+    {"clock_sync", "Clocks of anchors that tell raw times of arrival (docs/clock-sync.md).", clock_sync_options,
+     [](Settings& settings) -> void* { return &settings.engine.clock_sync; }},
     {"publish", "The socket that clients read.", publish_options,
      [](Settings& settings) -> void* { return &settings.publish; }},
     {"log", "What is written to the journal.", log_options, [](Settings& settings) -> void* { return &settings.log; }},
@@ -22,7 +24,7 @@ constexpr std::array<FlatSection, 4> flat{{
      [](Settings& settings) -> void* { return &settings.realtime; }},
 }};
 
-constexpr std::array<std::string_view, 8> section_names{"site",       "targets", "inputs", "fusion",
+constexpr std::array<std::string_view, 9> section_names{"site",       "targets", "inputs", "fusion",  "clock_sync",
                                                         "estimators", "publish", "log",    "realtime"};
 
 /// An absent section reads like an empty one.
@@ -36,6 +38,10 @@ void check_limits_between(const YamlNode& root, const Settings& settings, Proble
     constexpr std::size_t longest_socket_path = 107; // sockaddr_un::sun_path less its terminating zero
     const auto& fusion = settings.engine.fusion;
     find_named(section(root, "fusion").find("estimator"), "estimator", estimator_table(), problems);
+    const Address master = settings.engine.clock_sync.master;
+    if (master != no_address && settings.engine.site.find_anchor(master) == nullptr)
+        problems.add(section(root, "clock_sync").find("master")->mark,
+                     "master is not the address of an anchor of the site");
     if (settings.publish.socket.size() > longest_socket_path)
         problems.add(section(root, "publish").find("socket")->mark, "socket is longer than the 107 letters that the "
                                                                     "kernel takes");

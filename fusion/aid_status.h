@@ -28,6 +28,8 @@ enum class Exclusion : std::uint8_t {
     geometry_mirror,
     innovation_too_large,
     clock_not_synchronised,
+    clock_jumped,
+    impossible_difference,
     reported_blocked,
     disabled,
     count_
@@ -58,6 +60,8 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"geometry_mirror", "geometry cannot tell left from right"},
     {"innovation_too_large", "disagrees with the other sources by more than chance allows"},
     {"clock_not_synchronised", "clock of this anchor not synchronised yet"},
+    {"clock_jumped", "a clock jumped, as when an anchor is started anew; it is being learnt again"},
+    {"impossible_difference", "heard earlier or later than the distance between the anchors allows"},
     {"reported_blocked", "the device itself reports a blocked path"},
     {"disabled", "switched off in the settings"},
 }};
@@ -88,8 +92,9 @@ struct AidCounters {
     std::uint64_t late = 0;
 };
 
-/// received = used + late + refused + those still waiting for their tick. A measurement between two tags counts once
-/// for each. Exact also when a roll-back changes a verdict: the new one replaces the old.
+/// received = used + late + refused + those still waiting for their tick. A measurement between two tags, or a
+/// sync packet between two anchors, counts once for each. Exact also when a roll-back changes a verdict: the new one
+/// replaces the old.
 struct EngineCounters {
     std::uint64_t received = 0;
     std::uint64_t used = 0;

@@ -5,6 +5,7 @@
 #include "fusion/geometry/error_bound.h"
 #include "fusion/identity.h"
 #include "fusion/target_table.h"
+#include "fusion/uwb/clock_sync/synchroniser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,11 @@ bool all_finite(const std::array<double, Size>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
+/// A difference that is made of arrivals comes into the timeline this long before it would be too late.
+Duration longest_wait(const FusionSettings& fusion) {
+    return duration_from_s(std::max(0.0, fusion.window_s - 2 / fusion.rate_hz));
+}
+
 /// Non-finite numbers never leave: an estimate that holds one is none.
 void keep_finite(Estimate& estimate) {
     const bool finite = all_finite(estimate.position_site_m) && all_finite(estimate.velocity_site_mps) &&
@@ -44,18 +50,22 @@ void fill(Pose& pose, const Estimate& estimate) {
 
 } // namespace
 
-struct Engine::Impl {
+struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     explicit Impl(EngineSettings given)
         : settings(std::move(given)), window(duration_from_s(settings.fusion.window_s)), fresh(settings),
-          targets(settings, fresh), book(settings.site) {
+          targets(settings, fresh), book(settings.site),
+          clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)) {
         poses.reserve(static_cast<std::size_t>(settings.fusion.max_targets));
     }
 
     Timestamp horizon() const noexcept { return now - window; }
     void deliver(const Measurement& measurement, Delivery delivery, Timestamp arrival) noexcept;
     Exclusion first_look(const Measurement& measurement, Timestamp arrival) const noexcept;
-    Exclusion hand_over(const Measurement& measurement, const Delivery& delivery,
-                        const AidBook::Record& record) noexcept;
+    Verdict hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record) noexcept;
+    Exclusion hand_to_target(const Measurement& measurement, const Delivery& delivery,
+                             const AidBook::Record& record) noexcept;
+    void take(const Measurement& difference, const AidBook::Record& record) noexcept override;
+    void judge(const Measurement& arrival, const AidBook::Record& record, Exclusion reason) noexcept override;
     void step_target(TargetTable::Slot slot, Timestamp tick) noexcept;
 
     EngineSettings settings;
@@ -63,6 +73,7 @@ struct Engine::Impl {
     FreshEstimators fresh;
     TargetTable targets;
     AidBook book;
+    uwb::ClockSynchroniser clocks;
     std::vector<Pose> poses;                                                         ///< of the slots in use
     Timestamp now = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2); ///< newest arrival or tick
     Timestamp last_tick = Timestamp::min();
@@ -71,9 +82,10 @@ struct Engine::Impl {
 void Engine::Impl::deliver(const Measurement& measurement, Delivery delivery, Timestamp arrival) noexcept {
     const bool strangers = keep_strangers(delivery, settings.site);
     AidBook::Record record = book.hear(measurement, delivery, arrival);
-    Exclusion reason = strangers ? Exclusion::unknown_source : first_look(measurement, arrival);
-    if (reason == Exclusion::none) reason = hand_over(measurement, delivery, record);
-    if (reason != Exclusion::none) book.judge(measurement, record, {reason});
+    Verdict verdict{strangers ? Exclusion::unknown_source : first_look(measurement, arrival)};
+    const bool waits = verdict.reason == Exclusion::none && !std::holds_alternative<ClockSync>(measurement.observation);
+    if (verdict.reason == Exclusion::none) verdict = hand_over(measurement, delivery, record);
+    if (verdict.reason != Exclusion::none || !waits) book.judge(measurement, record, verdict);
 }
 
 Exclusion Engine::Impl::first_look(const Measurement& measurement, Timestamp arrival) const noexcept {
@@ -83,12 +95,33 @@ Exclusion Engine::Impl::first_look(const Measurement& measurement, Timestamp arr
     return Exclusion::none;
 }
 
-Exclusion Engine::Impl::hand_over(const Measurement& measurement, const Delivery& delivery,
-                                  const AidBook::Record& record) noexcept {
+/// none: it waits for its tick, but for a sync packet, which has had its effect.
+Verdict Engine::Impl::hand_over(const Measurement& measurement, const Delivery& delivery,
+                                const AidBook::Record& record) noexcept {
+    if (const auto* sync = std::get_if<ClockSync>(&measurement.observation))
+        return delivery.sources[0] == sync->receiver ? clocks.hear(*sync, measurement.time) : Verdict{};
+    if (std::holds_alternative<Arrival>(measurement.observation)) return {clocks.hear(measurement, record)};
+    return {hand_to_target(measurement, delivery, record)};
+}
+
+Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Delivery& delivery,
+                                       const AidBook::Record& record) noexcept {
     if (!delivery.tag) return Exclusion::unsupported_kind;
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
     return targets.timeline(slot).insert(measurement, key_of(measurement, delivery), record);
+}
+
+void Engine::Impl::take(const Measurement& difference, const AidBook::Record& record) noexcept {
+    Exclusion reason = difference.time < horizon() ? Exclusion::late : Exclusion::none;
+    for (const Delivery& delivery : deliveries_of(difference, settings.site))
+        if (reason == Exclusion::none) reason = hand_to_target(difference, delivery, record);
+    if (reason != Exclusion::none) judge(difference, record, reason);
+}
+
+void Engine::Impl::judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept {
+    AidBook::Record mine = record;
+    book.judge(measurement, mine, {reason});
 }
 
 void Engine::Impl::step_target(TargetTable::Slot slot, Timestamp tick) noexcept {
@@ -112,6 +145,7 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->last_tick = tick;
     impl_->now = std::max(impl_->now, tick);
     impl_->book.update_rates(tick);
+    impl_->clocks.run(tick, *impl_);
     for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
         impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
     return impl_->poses;

@@ -1,5 +1,5 @@
-// Engine: measurements in, poses out. Timeline, then identity, then estimators. No clock, no I/O, no thread; after
-// construction no allocation. `locus replay` and the daemon run this very code.
+// Engine: measurements in, poses out. Clocks, timeline, then identity, then estimators. No clock, no I/O, no thread;
+// after construction no allocation. `locus replay` and the daemon run this very code.
 #pragma once
 
 #include "fusion/aid_status.h"
@@ -7,6 +7,7 @@
 #include "fusion/option.h"
 #include "fusion/pose.h"
 #include "fusion/site.h"
+#include "fusion/uwb/clock_sync/settings.h"
 
 #include <array>
 #include <memory>
@@ -61,6 +62,7 @@ struct EstimatorSettings {
 
 struct EngineSettings {
     FusionSettings fusion;
+    ClockSyncSettings clock_sync;
     Site site;
     std::vector<TargetSettings> targets;
     std::vector<EstimatorSettings> estimators; ///< only those whose settings differ from the defaults need be here

@@ -31,7 +31,9 @@ struct WhomItConcerns {
     Deliveries operator()(const Range& o) const { return one(o.tag, SourceKind::anchor, o.anchor); }
     Deliveries operator()(const RangeDifference& o) const { return of_two_anchors(o.tag, o.anchor_a, o.anchor_b); }
     Deliveries operator()(const Arrival& o) const { return one(o.tag, SourceKind::anchor, o.anchor); }
-    Deliveries operator()(const ClockSync& o) const { return of_two_anchors({}, o.transmitter, o.receiver); }
+    Deliveries operator()(const ClockSync& o) const {
+        return {{from_one({}, SourceKind::anchor, o.receiver), from_one({}, SourceKind::anchor, o.transmitter)}, 2};
+    }
     Deliveries operator()(const PeerRange& o) const {
         return {{from_one(o.tag_a, SourceKind::tag, o.tag_b), from_one(o.tag_b, SourceKind::tag, o.tag_a)}, 2};
     }

@@ -20,7 +20,8 @@ struct Delivery {
     std::size_t source_count = 1;
 };
 
-/// A range between two tags concerns both, with the other as its source; everything else concerns one target.
+/// A range between two tags concerns both, with the other as its source, and a sync packet first the anchor that heard
+/// it, then the one that sent it; everything else concerns one target.
 struct Deliveries {
     std::array<Delivery, 2> items;
     std::size_t count = 1;

@@ -18,6 +18,7 @@ struct Anchor {
     Vec3 position_site_m{};
     double range_bias_m = 0;       ///< measured range less true range, from a calibration
     double sigma_m = std::nan(""); ///< of one range; NaN: the estimator's setting
+    double antenna_delay_m = 0; ///< of sending and receiving together, beyond what is programmed; where it sends sync
 };
 
 inline constexpr std::array anchor_options{
@@ -29,6 +30,10 @@ inline constexpr std::array anchor_options{
                                   "Measured range less true range, from a calibration."),
     option<&Anchor::sigma_m>("sigma_m", "m", 0.001, 100,
                              "Standard deviation of one range; left out: the estimator's setting."),
+    option<&Anchor::antenna_delay_m>(
+        "antenna_delay_m", "m", -1000, 1000,
+        "Of an anchor that sends sync packets: what its radio adds to sending and receiving "
+        "together, beyond what is programmed in the chip."),
 };
 
 /// Where the site's origin lies on the Earth, for GNSS; heading is of the site's x axis, clockwise from north.

@@ -235,12 +235,11 @@ TEST(Engine, ARangeBetweenTwoTagsGoesToBoth) {
 
 TEST(Engine, KindsThatNameNoTagAreRefusedButSeen) {
     Engine engine(follower_settings());
-    ClockSync sync;
-    sync.transmitter = address(0);
-    sync.receiver = address(1);
-    engine.submit({at(10), 0, 0, sync}, at(10));
-    EXPECT_EQ(source(engine, 0).last_verdict.reason, Exclusion::unsupported_kind);
-    EXPECT_EQ(source(engine, 1).counters.refused, 1u);
+    FootPoint foot;
+    foot.camera = address(77);
+    engine.submit({at(10), 0, 0, foot}, at(10));
+    EXPECT_EQ(source(engine, 77, SourceKind::camera).last_verdict.reason, Exclusion::unsupported_kind);
+    EXPECT_EQ(source(engine, 77, SourceKind::camera).counters.refused, 1u);
 }
 
 TEST(Engine, TwoTargetsDoNotTouchEachOther) {

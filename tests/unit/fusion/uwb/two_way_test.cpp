@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace locus::uwb {
+namespace locus::uwb::two_way_test {
 namespace {
 
 constexpr std::uint64_t period = std::uint64_t{1} << 40;
@@ -163,4 +163,4 @@ TEST(TwoWay, AntennaDelayAndUncertainRateGoIn) {
 }
 
 } // namespace
-} // namespace locus::uwb
+} // namespace locus::uwb::two_way_test
