@@ -65,7 +65,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     Exclusion hand_to_target(const Measurement& measurement, const Delivery& delivery,
                              const AidBook::Record& record) noexcept;
     void take(const Measurement& difference, const AidBook::Record& record) noexcept override;
-    void judge(const Measurement& arrival, const AidBook::Record& record, Exclusion reason) noexcept override;
+    void judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept override;
     void step_target(TargetTable::Slot slot, Timestamp tick) noexcept;
 
     EngineSettings settings;

@@ -52,7 +52,7 @@ class BlinkPool {
 
     /// Calls `deal(blink)` for each blink in the order in which they came, and forgets those of which it says true.
     template <class Deal>
-    void deal(Deal&& deal) noexcept {
+    void deal(const Deal& deal) noexcept {
         std::erase_if(waiting_, [&](Blink* blink) {
             if (!deal(*blink)) return false;
             free_.push_back(blink);

@@ -7,6 +7,8 @@
 namespace locus::uwb {
 namespace {
 
+constexpr double two_crystals = 2;
+
 double square(double x) { return x * x; }
 
 Eigen::Matrix3d transition(double dt_s) {
@@ -28,15 +30,11 @@ Eigen::Matrix3d noise(double dt_s, const CrystalModel& crystal) {
 
 } // namespace
 
-CrystalModel::CrystalModel(const ClockSyncSettings& s) {
-    constexpr double two_crystals = 2;
-    const double drift = s.crystal_drift_ppm_per_s * 1e-6 / tick_s;
-    rate_variance = two_crystals * square(s.crystal_tolerance_ppm * 1e-6 / tick_s);
-    drift_variance = two_crystals * square(drift);
-    offset_walk = two_crystals * square(s.crystal_noise_ppb * 1e-9 / tick_s);
-    drift_walk = two_crystals * square(drift) / s.crystal_drift_time_s;
-    arrival_variance = square(s.arrival_sigma_m / tick_m);
-}
+CrystalModel::CrystalModel(const ClockSyncSettings& s)
+    : rate_variance(two_crystals * square(s.crystal_tolerance_ppm * 1e-6 / tick_s)),
+      drift_variance(two_crystals * square(s.crystal_drift_ppm_per_s * 1e-6 / tick_s)),
+      offset_walk(two_crystals * square(s.crystal_noise_ppb * 1e-9 / tick_s)),
+      drift_walk(drift_variance / s.crystal_drift_time_s), arrival_variance(square(s.arrival_sigma_m / tick_m)) {}
 
 ClockState ClockState::first(const CrystalModel& crystal) {
     ClockState state;

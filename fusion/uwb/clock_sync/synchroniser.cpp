@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace locus::uwb {
 namespace {
@@ -20,12 +21,14 @@ bool is_settled(Blink& blink) {
     return std::ranges::all_of(blink.arrivals(), [](const HeardBlink& h) { return !h.time || h.time->settled; });
 }
 
+double variance_ticks2(const HeardBlink& heard) {
+    return heard.time ? heard.time->time.variance_ticks2 : std::numeric_limits<double>::infinity();
+}
+
 /// nullptr when no clock is known.
 HeardBlink* most_certain(Blink& blink) {
-    HeardBlink* best = nullptr;
-    for (HeardBlink& heard : blink.arrivals())
-        if (heard.time && (!best || heard.time->time.variance_ticks2 < best->time->time.variance_ticks2)) best = &heard;
-    return best;
+    const auto best = std::ranges::min_element(blink.arrivals(), {}, variance_ticks2);
+    return best == blink.arrivals().end() || !best->time ? nullptr : &*best;
 }
 
 } // namespace

@@ -19,13 +19,12 @@ class ClockSynchroniser {
     /// one.
     class Output {
       public:
+        virtual ~Output() = default;
         /// A range difference, to be judged by whoever takes it.
         virtual void take(const Measurement& difference, const AidBook::Record& record) noexcept = 0;
         /// The last word on an arrival: none if it is the one that the others of its blink are compared with.
-        virtual void judge(const Measurement& arrival, const AidBook::Record& record, Exclusion reason) noexcept = 0;
-
-      protected:
-        ~Output() = default;
+        virtual void judge(const Measurement& measurement, const AidBook::Record& record,
+                           Exclusion reason) noexcept = 0;
     };
 
     /// `site` outlives it. A blink never waits longer than `longest_wait`.
@@ -40,7 +39,7 @@ class ClockSynchroniser {
     void run(Timestamp tick, Output& output) noexcept;
 
   private:
-    ClockGraph::Node node_of(Address anchor) const noexcept;
+    ClockGraph::Node node_of(Address address) const noexcept;
     bool deal(Blink& blink, Timestamp tick, Output& output) noexcept;
     void place(Blink& blink) const noexcept;
     void compare(Blink& blink, Output& output) const noexcept;
