@@ -116,12 +116,13 @@ std::vector<Standing> contest(const Capture& capture) {
     const std::size_t bytes = bytes_to_explain(capture);
     const auto enter = [&](const DecoderRow& row, std::shared_ptr<void> settings) {
         Standing standing = standing_of(capture, row, std::move(settings), bytes);
-        if (standing.tally.frames > 0) standings.push_back(std::move(standing));
+        if (standing.tally.frames == 0) return;
+        const auto place = std::ranges::upper_bound(standings, standing, is_better);
+        standings.insert(place, std::move(standing));
     };
     const auto each_row = [&](const auto& enter_row) {
         for (const DecoderRow& row : decoder_table())
             if (row.wire == capture.wire() && can_be_tried(row)) enter_row(row);
-        std::ranges::stable_sort(standings, is_better);
     };
     each_row([&](const DecoderRow& row) { enter(row, row.options.make()); });
     if (!winners(standings).empty() || capture.empty()) return standings;

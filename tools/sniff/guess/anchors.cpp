@@ -3,6 +3,7 @@
 #include "drivers/layout/serial_layout.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace locus::sniff {
 namespace {
@@ -30,7 +31,7 @@ std::vector<std::uint32_t> frequent(const Frequencies& counts, std::size_t bytes
     std::vector<std::uint32_t> values;
     for (std::uint32_t value = 0; value < counts.size(); ++value)
         if (counts[value] >= least) values.push_back(value);
-    std::ranges::stable_sort(values, [&](std::uint32_t a, std::uint32_t b) { return counts[a] > counts[b]; });
+    std::ranges::sort(values, {}, [&](std::uint32_t value) { return std::pair{-std::int64_t{counts[value]}, value}; });
     values.resize(std::min(values.size(), most));
     return values;
 }

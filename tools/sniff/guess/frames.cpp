@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 namespace locus::sniff {
@@ -117,11 +118,12 @@ std::vector<std::ptrdiff_t> turns(wire::Bytes bytes, const Framing& framing) {
 }
 
 std::vector<Framing> framings(wire::Bytes bytes) {
-    std::vector<Framing> all;
+    std::vector<Framing> all; // the one that covers most first
     for (const Anchor& anchor : frequent_anchors(bytes))
         for (Framing& framing : guess_lengths(bytes, anchor))
-            if (framing.frames.size() >= fewest_frames - 1 && framing.share > 0.3) all.push_back(std::move(framing));
-    std::ranges::stable_sort(all, [](const Framing& a, const Framing& b) { return a.share > b.share; });
+            if (framing.frames.size() >= fewest_frames - 1 && framing.share > 0.3)
+                all.insert(std::ranges::upper_bound(all, framing.share, std::greater{}, &Framing::share),
+                           std::move(framing));
     std::vector<Framing> kept;
     for (const bool is_fixed : {true, false}) {
         std::size_t count = 0;
