@@ -31,12 +31,12 @@ std::optional<NavigationRecord> Navigation::read(std::string_view line, std::str
 }
 
 void Navigation::read_header(std::string_view line, std::string& error) {
-    if (!kind_) {
-        kind_ = kind_of(line);
-        if (!kind_) error = "it is not the first line of a RINEX file";
-        if (!kind_) kind_ = Kind{};
+    if (!std::exchange(begun_, true)) {
+        const auto kind = kind_of(line);
+        if (!kind) error = "it is not the first line of a RINEX file";
+        kind_ = kind.value_or(Kind{});
         // Version 2 has a file for each constellation, and version 3.0x may.
-        system_ = kind_->type == 'G' ? 'R' : 'G';
+        system_ = kind_.type == 'G' ? 'R' : 'G';
     }
     header_ended_ = label(line) == "END OF HEADER";
 }
@@ -61,14 +61,14 @@ void Navigation::read_values(std::string_view line, std::size_t begin, std::stri
 std::optional<NavigationRecord> Navigation::finish(std::string& error) {
     if (!header_ended_) error = "the file ends inside its header";
     if (!std::exchange(open_, false) || !error.empty()) return std::nullopt;
-    const bool version2 = kind_->version < 3;
+    const bool version2 = kind_.version < 3;
     const std::string name = version2 ? fmt::format("{}{:>2}", system_, columns(head_, 0, 2)) : head_.substr(0, 3);
     const auto which = satellite(name);
     const auto reference = date(columns(head_, version2 ? 2 : 3, number_width + 1));
     std::string wrong;
     if (!which && name[0] != 'I') wrong = "there is no such satellite";
     if (!reference) wrong = "its time is no date";
-    auto record = which && wrong.empty() ? record_of(*which, *reference, values_, wrong) : std::nullopt;
+    auto record = which && reference && wrong.empty() ? record_of(*which, *reference, values_, wrong) : std::nullopt;
     if (!wrong.empty()) error = fmt::format("{}: {}", name, wrong);
     if (!record && wrong.empty()) ++passed_over_;
     return record;

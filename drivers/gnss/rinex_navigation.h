@@ -31,14 +31,14 @@ class Navigation {
   private:
     static constexpr std::size_t most_values = 48;
 
-    std::optional<Kind> kind_;
-    bool header_ended_ = false, open_ = false;
+    Kind kind_;
+    bool begun_ = false, header_ended_ = false, open_ = false;
     char system_ = 0;
     std::string head_; ///< satellite and reference time
     std::vector<std::optional<double>> values_;
     std::uint64_t passed_over_ = 0;
 
-    std::size_t shift() const { return kind_->version < 3 ? 3 : 4; }
+    std::size_t shift() const { return kind_.version < 3 ? 3 : 4; }
     std::string_view head_of(std::string_view line) const;
     void read_header(std::string_view line, std::string& error);
     void begin_record(std::string_view line, std::string& error);

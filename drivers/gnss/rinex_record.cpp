@@ -17,7 +17,8 @@ class Needed {
     Needed(Values values, std::string& error) : values_{values}, error_{error} {}
 
     double operator[](std::size_t place) const {
-        if (place < values_.size() && values_[place]) return *values_[place];
+        const auto value = place < values_.size() ? values_[place] : std::nullopt;
+        if (value) return *value;
         if (error_.empty()) error_ = "number " + std::to_string(place + 1) + " of the record is missing";
         return 0;
     }
@@ -124,7 +125,10 @@ GpsTime sent_at(const KeplerEphemeris& e, const GpsTime& reference, Values value
 std::optional<NavigationRecord> ellipse(const Satellite& satellite, const CivilTime& date, Values values,
                                         std::string& error) {
     const auto clock_reference = gps_time(date);
-    if (!clock_reference) error = "its time is no date";
+    if (!clock_reference) {
+        error = "its time is no date";
+        return std::nullopt;
+    }
     if (!error.empty() || (satellite.constellation == constellation::galileo && is_fnav(told(values, 20, 0))))
         return {};
     const Needed needed{values, error};

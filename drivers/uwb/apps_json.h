@@ -54,7 +54,7 @@ struct Differences {
 using Report = std::variant<std::monostate, Ranges, Differences>;
 
 /// Empty when the line is damaged; monostate when it tells something else.
-std::optional<Report> parse(std::string_view line);
+std::optional<Report> parse(std::string_view text);
 
 /// A line with "\r\n"; as of twr_node_tdma if it has one item and a node, else as of twr_nranges_tdma.
 std::string encode(const Ranges& ranges);

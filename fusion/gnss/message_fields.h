@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <ranges>
 #include <span>
 #include <type_traits>
 
@@ -106,9 +107,9 @@ class FieldWriter {
             return;
         }
         auto value = static_cast<std::uint64_t>(static_cast<std::int64_t>(count));
-        for (auto place = std::rbegin(places); place != std::rend(places); ++place) {
-            parts_[place->part].set(place->begin, place->length, static_cast<std::uint32_t>(value));
-            value >>= place->length;
+        for (const Place& place : std::views::reverse(places)) {
+            parts_[place.part].set(place.begin, place.length, static_cast<std::uint32_t>(value));
+            value >>= place.length;
         }
     }
 };

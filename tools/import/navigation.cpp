@@ -5,6 +5,7 @@
 #include "tools/import/lines.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 namespace locus::importing {
@@ -56,13 +57,13 @@ GlonassSlots NavigationFile::glonass_slots() const {
 void NavigationFile::begin_at(Timestamp begin) {
     std::set<std::pair<unsigned, unsigned>> said;
     std::vector<Record> kept;
-    for (auto record = records_.rbegin(); record != records_.rend(); ++record) {
-        const bool early = record->sent <= begin;
-        const bool use = !early || (begin - record->sent <= longest_ago &&
-                                    said.insert(satellite_of(record->printed.ephemeris)).second);
+    for (Record record : std::views::reverse(records_)) {
+        const bool early = record.sent <= begin;
+        const bool use = !early || (begin - record.sent <= longest_ago &&
+                                    said.insert(satellite_of(record.printed.ephemeris)).second);
         if (!use) continue;
-        record->sent = std::max(record->sent, begin);
-        kept.push_back(*record);
+        record.sent = std::max(record.sent, begin);
+        kept.push_back(record);
     }
     if (kept.size() < records_.size())
         report_.left_out["records that newer ones replace before the first observation"] =

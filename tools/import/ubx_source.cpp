@@ -53,16 +53,16 @@ class UbxSource final : public Source {
             return;
         }
         if (!known) {
-            for (const auto& one : held_) decode(one, items);
+            for (const auto& one : held_) decode(one, *epoch_, items);
             held_.clear();
         }
-        decode(frame, items);
+        decode(frame, *epoch_, items);
     }
 
-    void decode(std::span<const std::uint8_t> frame, std::vector<Item>& items) {
+    void decode(std::span<const std::uint8_t> frame, const GpsTime& epoch, std::vector<Item>& items) {
         ListSink sink{items, report_};
         Packet packet;
-        packet.time = gnss::timestamp(*epoch_);
+        packet.time = gnss::timestamp(epoch);
         packet.data = frame;
         decoder_->decode(packet, sink);
     }

@@ -31,7 +31,8 @@ class RecordAll : public testing::Test {
     /// Counts per input, by name.
     static std::map<std::string, json> by_name(const std::string& counts) {
         std::map<std::string, json> inputs;
-        for (const json& input : json::parse(counts)["inputs"]) inputs[input["name"]] = input;
+        const json all = json::parse(counts);
+        for (const json& input : all["inputs"]) inputs[input["name"]] = input;
         return inputs;
     }
     test::TemporaryFolder folder_;

@@ -52,8 +52,9 @@ std::vector<std::uint8_t> common_begin(wire::Bytes bytes, const std::vector<Cut>
 
 /// What a layout must have: a field. This one makes no measurement.
 void put_placeholder(SerialLayoutSettings& layout, std::size_t shortest) {
-    std::size_t at = layout::bytes_of_hex(layout.sync)->size();
-    if (layout.frame_bytes == 0) at = static_cast<std::size_t>(layout.length_at_byte + layout.length_bytes);
+    std::size_t at = layout::bytes_of_hex(layout.sync).value_or(std::vector<std::uint8_t>{}).size();
+    if (layout.frame_bytes == 0)
+        at = static_cast<std::size_t>(layout.length_at_byte) + static_cast<std::size_t>(layout.length_bytes);
     layout.fields = {{.quantity = "anchor", .at_byte = static_cast<int>(at < shortest ? at : 0)}};
 }
 

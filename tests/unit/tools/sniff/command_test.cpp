@@ -55,7 +55,8 @@ class SniffCommand : public testing::Test {
     /// The lines of two inputs, one of them CAN.
     std::string recording() const {
         std::string text = "# recording\n";
-        Packet frame = CanFrame{0x340, 8, {1, 2, 3, 4, 5, 6, 7, 0}}.packet({});
+        const CanFrame on_bus{0x340, 8, {1, 2, 3, 4, 5, 6, 7, 0}};
+        Packet frame = on_bus.packet({});
         for (int i = 0; i < 20; ++i) {
             Packet packet;
             packet.time = frame.time = timestamp_from_s(5 + 0.1 * i);
