@@ -25,6 +25,7 @@ struct LocoFormat {
         const auto compared = std::min(begin.size(), bytes.size());
         if (!std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(compared), begin.begin()))
             return Look::none(Refusal::garbage);
+        bytes = bytes.first(std::min(bytes.size(), max_length)); // whatever more has come: a longer line is none
         const auto end = std::ranges::find_if(bytes, [](std::uint8_t c) { return c < ' ' || c > '~'; });
         if (end == bytes.end())
             return bytes.size() < max_length ? Look::need(bytes.size() + 1) : Look::none(Refusal::too_long);
