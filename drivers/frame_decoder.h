@@ -23,6 +23,9 @@ class FrameDecoder : public Decoder {
   protected:
     virtual void frame(const Frame& frame, MeasurementSink& sink) = 0;
 
+    /// Bytes of a frame that is not whole yet.
+    std::span<const std::uint8_t> waiting() const { return frames_.waiting(); }
+
   private:
     FrameStream<Format> frames_;
 };

@@ -2,7 +2,7 @@
 
 #include "drivers/gnss/epoch_clock.h"
 #include "drivers/gnss/nmea_epoch.h"
-#include "drivers/line_splitter.h"
+#include "drivers/line_decoder.h"
 #include "drivers/wire/bytes.h"
 
 #include <cmath>
@@ -13,22 +13,12 @@ namespace {
 
 using namespace nmea;
 
-class Nmea : public Decoder {
+class Nmea : public LineDecoder {
   public:
     explicit Nmea(const NmeaSettings& settings) : settings_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        lines_.feed(
-            packet,
-            [&](std::string_view text, Timestamp complete) {
-                const auto bytes = static_cast<std::int64_t>(text.size() + 2); // with "\r\n"
-                line(text, complete - bytes * packet.byte_time, sink);
-            },
-            [&] { sink.refuse(Refusal::too_long); });
-    }
-
     void reset() override {
-        lines_.reset();
+        LineDecoder::reset();
         epoch_ = {};
         clock_.reset();
         given_ = false;
@@ -37,14 +27,13 @@ class Nmea : public Decoder {
 
   private:
     NmeaSettings settings_;
-    LineSplitter lines_;
     Epoch epoch_;
     EpochClock clock_{EpochClock::day_ns};
     bool given_ = false; ///< the fix of this moment went out
     unsigned kinds_before_ = 0;
     unsigned wanted_ = 0; ///< kinds of sentence that the two moments before had: one lost sentence is still waited for
 
-    void line(std::string_view text, Timestamp begun, MeasurementSink& sink) {
+    void line(std::string_view text, Timestamp begun, MeasurementSink& sink) override {
         const auto parsed = parse_sentence(text, settings_.need_checksum);
         if (const auto* refusal = std::get_if<Refusal>(&parsed)) return sink.refuse(*refusal);
         const auto& sentence = std::get<Sentence>(parsed);

@@ -1,6 +1,7 @@
 // UBX messages into measurements.
 #include "drivers/gnss/ubx.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/gnss/epoch_clock.h"
 #include "drivers/gnss/ubx_messages.h"
 
@@ -87,27 +88,21 @@ GnssNavigation navigation_of(const Subframe& subframe, Address tag) {
     return navigation;
 }
 
-class Ubx : public Decoder {
+class Ubx : public FrameDecoder<ubx::Format> {
   public:
     explicit Ubx(const UbxSettings& settings) : tag_{settings.tag}, use_receiver_time_{settings.use_receiver_time} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        stream_.feed(
-            packet, [&](const Frame& frame) { message(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        stream_.reset();
+        FrameDecoder::reset();
         clock_.reset();
     }
 
   private:
     Address tag_;
     bool use_receiver_time_;
-    FrameStream<ubx::Format> stream_;
     EpochClock clock_{EpochClock::week_ns};
 
-    void message(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         const wire::Bytes payload = payload_of(frame.bytes);
         switch (message_id(frame.bytes)) {
         case NavPvt::id:

@@ -1,6 +1,7 @@
 // Asks a DWM1001 for its distances, and makes ranges of what it answers.
 #include "drivers/uwb/dwm1001_tlv.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/uwb/limits.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ constexpr Duration longest_wait = std::chrono::milliseconds{200}; // for an answ
 constexpr Duration longest_gap = longest_wait / 2;                // inside an answer, which takes 6 ms
 constexpr std::array<std::uint8_t, 2> loc_get{0x0C, 0x00};
 
-class Tlv : public Decoder {
+class Tlv : public FrameDecoder<TlvFormat> {
   public:
     explicit Tlv(const Dwm1001TlvSettings& settings)
         : settings_(settings),
@@ -22,8 +23,7 @@ class Tlv : public Decoder {
     void decode(const Packet& packet, MeasurementSink& sink) override {
         if (flush_ || packet.time - last_ > longest_gap) flush(sink);
         last_ = packet.time;
-        frames_.feed(
-            packet, [&](const Frame& frame) { reply(frame, sink); }, [&](Refusal reason) { sink.refuse(reason); });
+        FrameDecoder::decode(packet, sink);
     }
 
     std::optional<Packet> request(Timestamp now) override {
@@ -37,14 +37,13 @@ class Tlv : public Decoder {
     }
 
     void reset() override {
-        frames_.reset();
+        FrameDecoder::reset();
         asked_.reset();
     }
 
   private:
     Dwm1001TlvSettings settings_;
     Duration period_;
-    FrameStream<TlvFormat> frames_;
     std::optional<Timestamp> asked_;
     Timestamp last_{};
     bool answered_ = false;
@@ -53,14 +52,14 @@ class Tlv : public Decoder {
     /// Half an answer, whose rest will not come. A position without distances has no other end than this.
     void flush(MeasurementSink& sink) {
         flush_ = false;
-        if (frames_.waiting().size() == dwm1001::position_reply_size)
-            sink.frame(frames_.waiting());
-        else if (!frames_.waiting().empty())
+        if (waiting().size() == dwm1001::position_reply_size)
+            sink.frame(waiting());
+        else if (!waiting().empty())
             sink.refuse(Refusal::malformed);
-        frames_.reset();
+        FrameDecoder::reset();
     }
 
-    void reply(const Frame& frame, MeasurementSink& sink) {
+    void frame(const Frame& frame, MeasurementSink& sink) override {
         answered_ = true;
         const auto reply = parse_tlv_reply(frame.bytes);
         if (!reply) return sink.refuse(Refusal::malformed);

@@ -5,6 +5,7 @@
 #include "drivers/wire/bytes.h"
 #include "drivers/wire/json_scan.h"
 #include "drivers/wire/text.h"
+#include "fusion/uwb/ticks.h"
 
 #include <fmt/format.h>
 
@@ -16,15 +17,13 @@ namespace {
 using wire::JsonMember;
 using wire::JsonValue;
 
-constexpr std::uint64_t clock_mask = (std::uint64_t{1} << 40) - 1;
+constexpr std::uint64_t clock_mask = (std::uint64_t{1} << dw1000_clock_bits) - 1;
 
 bool read_frame(const JsonValue& value, ListenerReport& report) {
     if (value.kind != JsonValue::Kind::string || value.text.size() % 2 != 0) return false;
     if (value.text.size() / 2 > decltype(report.frame)::capacity()) return false;
-    for (std::size_t at = 0; at < value.text.size(); at += 2) {
-        wire::Text byte{value.text.substr(at, 2)};
-        if (!byte.hex(2, report.frame.emplace_back())) return false;
-    }
+    for (wire::Text hex{value.text}; !hex.done();)
+        if (!hex.hex_byte(report.frame.emplace_back())) return false;
     return true;
 }
 

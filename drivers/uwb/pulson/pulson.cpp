@@ -1,5 +1,6 @@
 #include "drivers/uwb/pulson/pulson.h"
 
+#include "drivers/frame_decoder.h"
 #include "drivers/uwb/pulson/envelope.h"
 #include "drivers/uwb/pulson/radio.h"
 
@@ -7,18 +8,12 @@ namespace locus::uwb::pulson {
 namespace {
 
 template <FrameFormat Format>
-class Serial : public Decoder {
+class Serial : public FrameDecoder<Format> {
   public:
     explicit Serial(const PulsonSettings& settings) : radio_{settings} {}
 
-    void decode(const Packet& packet, MeasurementSink& sink) override {
-        frames_.feed(
-            packet, [&](const Frame& frame) { radio_.message(Format::message(frame.bytes), frame.begun, sink); },
-            [&](Refusal reason) { sink.refuse(reason); });
-    }
-
     void reset() override {
-        frames_.reset();
+        FrameDecoder<Format>::reset();
         radio_.reset();
     }
 
@@ -32,9 +27,12 @@ class Serial : public Decoder {
     }
 
   private:
-    FrameStream<Format> frames_;
     Radio radio_;
     std::vector<std::uint8_t> request_;
+
+    void frame(const Frame& frame, MeasurementSink& sink) override {
+        radio_.message(Format::message(frame.bytes), frame.begun, sink);
+    }
 };
 
 /// Over UDP there is no envelope: a packet is a message.

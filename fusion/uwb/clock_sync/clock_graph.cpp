@@ -14,15 +14,15 @@ constexpr Duration refresh_interval = duration_from_s(0.5);
 /// A transmitter unheard for this long gives its place to another.
 constexpr double silent_s = 10;
 
-ClockGraph::Node index_of(const Site& site, Address address) {
-    const Anchor* anchor = site.find_anchor(address);
-    return anchor ? static_cast<ClockGraph::Node>(anchor - site.anchors.data()) : ClockGraph::nobody;
-}
-
 } // namespace
 
+ClockGraph::Node ClockGraph::node_of(const Site& site, Address address) noexcept {
+    const Anchor* anchor = site.find_anchor(address);
+    return anchor ? static_cast<Node>(anchor - site.anchors.data()) : nobody;
+}
+
 ClockGraph::ClockGraph(const Site& site, const ClockSyncSettings& settings)
-    : site_(site), master_(index_of(site, settings.master)),
+    : site_(site), master_(node_of(site, settings.master)),
       max_variance_ticks2_(std::pow(settings.max_clock_sigma_m / tick_m, 2)),
       slots_(site.anchors.size() * links_per_receiver,
              Slot{nobody, 0, ClockLink{CrystalModel{settings}, WrappingClock{settings.clock_bits}}}),

@@ -30,6 +30,9 @@ class ClockGraph {
         bool settled = true; ///< every link knows a packet that came after
     };
 
+    /// nobody: the address is not an anchor of the site.
+    static Node node_of(const Site& site, Address address) noexcept;
+
     /// `site` outlives the graph.
     ClockGraph(const Site& site, const ClockSyncSettings& settings);
 

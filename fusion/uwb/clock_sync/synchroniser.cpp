@@ -40,20 +40,17 @@ ClockSynchroniser::ClockSynchroniser(const Site& site, const ClockSyncSettings& 
       max_clock_variance_ticks2_(std::pow(settings.max_clock_sigma_m / tick_m, 2)), graph_(site, settings),
       blinks_(gather_, site.anchors.size() > 1) {}
 
-ClockGraph::Node ClockSynchroniser::node_of(Address address) const noexcept {
-    const Anchor* anchor = site_.find_anchor(address);
-    return anchor ? static_cast<ClockGraph::Node>(anchor - site_.anchors.data()) : ClockGraph::nobody;
-}
-
 Verdict ClockSynchroniser::hear(const ClockSync& packet, Timestamp time) noexcept {
-    const auto transmitter = node_of(packet.transmitter), receiver = node_of(packet.receiver);
+    const auto transmitter = ClockGraph::node_of(site_, packet.transmitter);
+    const auto receiver = ClockGraph::node_of(site_, packet.receiver);
     if (transmitter == ClockGraph::nobody || receiver == ClockGraph::nobody) return {Exclusion::clock_not_synchronised};
     return graph_.hear(transmitter, receiver,
                        {packet.tx_transmitter_ticks_in_transmitter, {packet.rx_receiver_ticks_in_receiver, time}});
 }
 
 Exclusion ClockSynchroniser::hear(const Measurement& arrival, const AidBook::Record& record) noexcept {
-    return blinks_.keep(arrival, node_of(std::get_if<Arrival>(&arrival.observation)->anchor), record);
+    return blinks_.keep(arrival, ClockGraph::node_of(site_, std::get_if<Arrival>(&arrival.observation)->anchor),
+                        record);
 }
 
 void ClockSynchroniser::run(Timestamp tick, Output& output) noexcept {

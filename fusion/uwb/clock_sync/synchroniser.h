@@ -39,7 +39,6 @@ class ClockSynchroniser {
     void run(Timestamp tick, Output& output) noexcept;
 
   private:
-    ClockGraph::Node node_of(Address address) const noexcept;
     bool deal(Blink& blink, Timestamp tick, Output& output) noexcept;
     void place(Blink& blink) const noexcept;
     void compare(Blink& blink, Output& output) const noexcept;
