@@ -52,6 +52,7 @@ struct WhomItConcerns {
     Deliveries operator()(const GnssNavigation& o) const {
         return one(o.tag, SourceKind::satellite, satellite_address(o));
     }
+    Deliveries operator()(const Height& o) const { return one(o.tag, SourceKind::input, this_input()); }
 };
 
 template <class Numbers>
@@ -82,6 +83,7 @@ struct NumbersAreFinite {
     bool operator()(const Pressure& o) const { return std::isfinite(o.pressure_pa); }
     bool operator()(const SignalStrength& o) const { return std::isfinite(o.rssi_dbm); }
     bool operator()(const GnssNavigation&) const { return true; }
+    bool operator()(const Height& o) const { return std::isfinite(o.height_site_m); }
 };
 
 struct ShownValue {
@@ -91,6 +93,7 @@ struct ShownValue {
     double operator()(const GnssRaw& o) const { return o.pseudorange_m; }
     double operator()(const WheelSpeed& o) const { return o.speed_mps; }
     double operator()(const Pressure& o) const { return o.pressure_pa; }
+    double operator()(const Height& o) const { return o.height_site_m; }
     double operator()(const SignalStrength& o) const { return static_cast<double>(o.rssi_dbm); }
     template <class Other>
     double operator()(const Other&) const {

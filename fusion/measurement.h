@@ -6,6 +6,7 @@
 #include "fusion/time.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -69,12 +70,21 @@ struct ClockSync {
     std::uint32_t sequence = 0;
 };
 
+/// Where a target is by its own estimate, and how sure of it: what one walker tells another along with their range.
+struct PeerBelief {
+    Vec3 position_site_m{};
+    std::array<float, 6> covariance_m2{unknown_f}; ///< xx, xy, xz, yy, yz, zz; NaN: nothing is known
+
+    bool known() const { return std::isfinite(covariance_m2[0]); }
+};
+
 /// Range between two tags.
 struct PeerRange {
     Address tag_a = no_address;
     Address tag_b = no_address;
     double range_m = 0;
     float sigma_m = unknown_f;
+    PeerBelief other; ///< of the tag at the other end; the engine fills it in, no device or recording does
 };
 
 struct ImuSample {
@@ -171,6 +181,13 @@ struct Pressure {
     float temperature_c = unknown_f;
 };
 
+/// Height over the site's floor (z = 0): a laser or sonar that looks down, a barometer that was levelled.
+struct Height {
+    Address tag = no_address;
+    double height_site_m = 0;
+    float sigma_m = unknown_f;
+};
+
 struct SignalStrength {
     Address transmitter = no_address;
     Address receiver = no_address;
@@ -181,13 +198,13 @@ struct SignalStrength {
 
 using Observation =
     std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
-                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation>;
+                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
-    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC",     "PEER_RANGE",
-    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",       "GNSS_RAW",
-    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH", "GNSS_NAVIGATION"};
+    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC",      "PEER_RANGE",
+    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",        "GNSS_RAW",
+    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH", "GNSS_NAVIGATION", "HEIGHT"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

@@ -135,6 +135,13 @@ void visit_fields(Visitor& visit, Kind& pressure) {
     visit.may("temperature_c", pressure.temperature_c);
 }
 
+template <class Visitor, Of<Height> Kind>
+void visit_fields(Visitor& visit, Kind& height) {
+    visit.must("tag", height.tag);
+    visit.must("height_site_m", height.height_site_m);
+    visit.may("sigma_m", height.sigma_m);
+}
+
 template <class Visitor, Of<SignalStrength> Kind>
 void visit_fields(Visitor& visit, Kind& strength) {
     visit.must("transmitter", strength.transmitter);
