@@ -84,7 +84,7 @@ struct PeerRange {
     Address tag_b = no_address;
     double range_m = 0;
     float sigma_m = unknown_f;
-    PeerBelief other; ///< of the tag at the other end; the engine fills it in, no device or recording does
+    PeerBelief other{}; ///< of the tag at the other end; the engine fills it in, no device or recording does
 };
 
 struct ImuSample {
