@@ -1,5 +1,7 @@
 #include "fusion/estimators/range_expectation.h"
 
+#include "fusion/filter/track_state.h"
+
 #include <array>
 
 namespace locus {
@@ -13,22 +15,24 @@ struct Carried {
     double sign = 1;
 };
 
-Carried carried(std::int32_t key, double sign, const filter::WanderModel& model, filter::TrackState& track) {
+template <class Track>
+Carried carried(std::int32_t key, double sign, const filter::WanderModel& model, Track& track) {
     return {model.sigma > 0 ? track.wanderer(key, model) : -1, sign};
 }
 
 } // namespace
 
-RangeExpectation expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
-                        filter::TrackState& track) noexcept {
+template <class Track>
+RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
+                               Track& track) noexcept {
     const std::array all{carried(sighting.plus, 1, errors.anchor, track),
                          sighting.is_range() ? carried(common_range_error, 1, errors.common, track)
                                              : carried(sighting.minus, -1, errors.anchor, track)};
-    RangeExpectation expectation;
+    RangeExpectation<Track> expectation;
     expectation.jacobian.setZero(track.size());
-    const Eigen::Vector3d gradient = uwb::gradient(sighting, site, track.position_m());
-    for (int axis = 0; axis < 3; ++axis) expectation.jacobian(filter::TrackState::place(axis, 0)) = gradient(axis);
-    double predicted_m = uwb::predicted_m(sighting, site, track.position_m());
+    const Eigen::Vector3d antenna_site_m = track.antenna_site_m();
+    track.spread_gradient(uwb::gradient(sighting, site, antenna_site_m), expectation.jacobian);
+    double predicted_m = uwb::predicted_m(sighting, site, antenna_site_m);
     for (const Carried& error : all) {
         if (error.place < 0) continue;
         expectation.jacobian(error.place) = error.sign;
@@ -37,5 +41,8 @@ RangeExpectation expect(const uwb::Sighting& sighting, const Site& site, const C
     expectation.innovation_m = sighting.value_m - predicted_m;
     return expectation;
 }
+
+template RangeExpectation<filter::TrackState> expect(const uwb::Sighting&, const Site&, const CarriedErrors&,
+                                                     filter::TrackState&) noexcept;
 
 } // namespace locus

@@ -2,7 +2,7 @@
 // from one measurement to the next, kept as wandering states of the track.
 #pragma once
 
-#include "fusion/filter/track_state.h"
+#include "fusion/filter/wandering_state.h"
 #include "fusion/uwb/sighting.h"
 
 namespace locus {
@@ -13,13 +13,15 @@ struct CarriedErrors {
     filter::WanderModel common; ///< of all ranges alike; differences are free of it
 };
 
+template <class Track>
 struct RangeExpectation {
-    double innovation_m = 0;             ///< sighting less prediction
-    filter::TrackState::Vector jacobian; ///< of the prediction by the state
+    double innovation_m = 0;         ///< sighting less prediction
+    typename Track::Vector jacobian; ///< of the prediction by the state
 };
 
 /// Gives the errors that are new a place in the state. Paper 001 eq. 5-7.
-RangeExpectation expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
-                        filter::TrackState& track) noexcept;
+template <class Track>
+RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
+                               Track& track) noexcept;
 
 } // namespace locus

@@ -1,0 +1,77 @@
+// What every filter on UWB ranges and range differences has in common, whatever its idea of motion: a start from
+// nothing, soft weights beside a gate that reopens, the errors that anchors carry along as states, and a new start when
+// the target is plainly elsewhere. `Track` says how the target moves: filter::TrackState, NavTrack.
+#pragma once
+
+#include "fusion/estimators/estimator.h"
+#include "fusion/estimators/range_expectation.h"
+#include "fusion/estimators/range_reader.h"
+#include "fusion/filter/gate.h"
+#include "fusion/filter/robust_gain.h"
+#include "fusion/uwb/epoch_keeper.h"
+
+#include <array>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace locus {
+
+template <class Track>
+class RangeFilter : public Estimator {
+  public:
+    Verdict update(const Measurement& measurement) noexcept override;
+    Estimate predict(Timestamp time) const noexcept override;
+
+    /// For tests: the state as it was after the last update.
+    const Track& track() const noexcept { return track_; }
+
+  protected:
+    /// `site` outlives the filter.
+    RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track);
+
+    bool has_position() const noexcept { return missing_ == Missing::nothing; }
+    Timestamp time() const noexcept { return time_; } ///< of the state
+
+    /// Carries the state to `time`, at or after its own.
+    void move_to(Timestamp time) noexcept;
+
+    /// Takes one number into the state if it passes the gate.
+    struct Scalar {
+        double innovation = 0;
+        typename Track::Vector jacobian; ///< of the prediction by the state
+        double variance = 0;
+    };
+    Verdict weigh(const Scalar& scalar, filter::Gate& gate, filter::RobustGain& robust) noexcept;
+
+    /// To be told of every observation that was taken in.
+    void note_use(const Observation& observation, Timestamp time) noexcept { kind_used_[observation.index()] = time; }
+
+    Track track_;
+
+  private:
+    Verdict take(const uwb::Sighting& sighting, const Measurement& measurement) noexcept;
+    Verdict start(Timestamp time) noexcept;
+    void count_refusal(bool refused, double dt_s) noexcept;
+    void start_again_if_lost(Timestamp time) noexcept;
+    void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
+
+    const Site* site_;
+    RangeEkfSettings settings_;
+    double gate_in_sigma_;
+    double start_anew_cost_;
+
+    RangeReader reader_;
+    CarriedErrors errors_;
+    uwb::EpochKeeper epoch_;
+    filter::RobustGain robust_;
+    std::vector<filter::Gate> gates_; ///< by anchor; of a difference, anchor_b's
+    std::array<std::optional<Timestamp>, std::variant_size_v<Observation>> kind_used_{};
+    Timestamp time_{};      ///< of the state
+    Timestamp used_time_{}; ///< of the last sighting used
+    double refused_share_ = 0;
+    std::uint32_t reset_count_ = 0;
+    Missing missing_ = Missing::measurements;
+};
+
+} // namespace locus
