@@ -102,10 +102,10 @@ constexpr OptionRow option(std::string_view name, std::string_view unit, double 
 }
 
 /// A row without limits, for texts and booleans.
-template <auto Member>
+template <auto Member, class Settings = typename detail::MemberOf<decltype(Member)>::Struct>
 constexpr OptionRow option(std::string_view name, std::string_view about,
                            std::span<const std::string_view> choices = {}) {
-    return option<Member>(name, "", -no_limit, no_limit, about, choices);
+    return option<Member, Settings>(name, "", -no_limit, no_limit, about, choices);
 }
 
 template <auto Member>

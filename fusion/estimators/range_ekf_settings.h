@@ -39,46 +39,52 @@ struct RangeEkfSettings {
     double height_m = 0;
 };
 
-inline constexpr std::array range_ekf_options{
-    option<&RangeEkfSettings::range_sigma_m>(
+/// `Settings`: those of an estimator that has these as a base.
+template <class Settings>
+inline constexpr std::array range_options{
+    option<&RangeEkfSettings::range_sigma_m, Settings>(
         "range_sigma_m", "m", 0.001, 100,
         "Noise of a range that is new each time, where neither the device nor the anchor states one."),
-    option<&RangeEkfSettings::range_difference_sigma_m>(
+    option<&RangeEkfSettings::range_difference_sigma_m, Settings>(
         "range_difference_sigma_m", "m", 0.001, 100,
         "Noise of a range difference that is new each time, where neither the device nor the anchors state one."),
-    option<&RangeEkfSettings::anchor_error_sigma_m>(
+    option<&RangeEkfSettings::anchor_error_sigma_m, Settings>(
         "anchor_error_sigma_m", "m", 0, 100,
         "Error of an anchor that stays while the pose hardly changes (antenna, body, multipath)."),
-    option<&RangeEkfSettings::anchor_error_time_s>("anchor_error_time_s", "s", 0.01, 1e6,
-                                                   "Time in which that error becomes another one."),
-    option<&RangeEkfSettings::common_range_error_sigma_m>(
+    option<&RangeEkfSettings::anchor_error_time_s, Settings>("anchor_error_time_s", "s", 0.01, 1e6,
+                                                             "Time in which that error becomes another one."),
+    option<&RangeEkfSettings::common_range_error_sigma_m, Settings>(
         "common_range_error_sigma_m", "m", 0, 100,
         "Constant error common to all ranges of a tag (antenna delay), found as it moves."),
-    option<&RangeEkfSettings::acceleration_sigma_mps2>("acceleration_sigma_mps2", "m/s^2", 0.001, 1000,
-                                                       "Acceleration that the target is capable of."),
-    option<&RangeEkfSettings::acceleration_time_s>(
+    option<&RangeEkfSettings::acceleration_sigma_mps2, Settings>("acceleration_sigma_mps2", "m/s^2", 0.001, 1000,
+                                                                 "Acceleration that the target is capable of."),
+    option<&RangeEkfSettings::acceleration_time_s, Settings>(
         "acceleration_time_s", "s", 0.01, 1e4,
         "Time in which an acceleration dies away; very long: the constant acceleration of paper 001."),
-    option<&RangeEkfSettings::speed_sigma_mps>("speed_sigma_mps", "m/s", 0.001, 1000,
-                                               "Speed that a target may have when it is first heard."),
-    option<&RangeEkfSettings::robust_scale>(
+    option<&RangeEkfSettings::speed_sigma_mps, Settings>("speed_sigma_mps", "m/s", 0.001, 1000,
+                                                         "Speed that a target may have when it is first heard."),
+    option<&RangeEkfSettings::robust_scale, Settings>(
         "robust_scale", "sigma", 0.1, 1e6,
         "Innovation, in standard deviations of those that come, with half the weight (Cauchy)."),
-    option<&RangeEkfSettings::gate_false_alarm>("gate_false_alarm", "", 1e-12, 0.5,
-                                                "Chance that the gate refuses a good measurement."),
-    option<&RangeEkfSettings::gate_patience>("gate_patience", "", 0, 1000000,
-                                             "Measurements of an anchor refused in a row before one is let in again."),
-    option<&RangeEkfSettings::max_range_m>("max_range_m", "m", 0.1, 1e6, "Longest range, or difference, believed."),
-    option<&RangeEkfSettings::use_blocked>("use_blocked",
-                                           "Whether measurements are used that the device itself calls blocked."),
-    option<&RangeEkfSettings::start_window_s>("start_window_s", "s", 0.01, 60,
-                                              "Age of the measurements that a first position is made from."),
-    option<&RangeEkfSettings::lost_after_s>("lost_after_s", "s", 0.01, 60,
-                                            "How long most measurements are refused before the filter doubts itself."),
-    option<&RangeEkfSettings::forget_after_s>("forget_after_s", "s", 0.1, 3600,
-                                              "Without a measurement for this long the filter starts anew."),
-    option<&RangeEkfSettings::planar>("planar", "Whether the height is known and only x and y are estimated."),
-    option<&RangeEkfSettings::height_m>("height_m", "m", -1e5, 1e5, "Height of the tag when planar."),
+    option<&RangeEkfSettings::gate_false_alarm, Settings>("gate_false_alarm", "", 1e-12, 0.5,
+                                                          "Chance that the gate refuses a good measurement."),
+    option<&RangeEkfSettings::gate_patience, Settings>(
+        "gate_patience", "", 0, 1000000, "Measurements of an anchor refused in a row before one is let in again."),
+    option<&RangeEkfSettings::max_range_m, Settings>("max_range_m", "m", 0.1, 1e6,
+                                                     "Longest range, or difference, believed."),
+    option<&RangeEkfSettings::use_blocked, Settings>(
+        "use_blocked", "Whether measurements are used that the device itself calls blocked."),
+    option<&RangeEkfSettings::start_window_s, Settings>("start_window_s", "s", 0.01, 60,
+                                                        "Age of the measurements that a first position is made from."),
+    option<&RangeEkfSettings::lost_after_s, Settings>(
+        "lost_after_s", "s", 0.01, 60, "How long most measurements are refused before the filter doubts itself."),
+    option<&RangeEkfSettings::forget_after_s, Settings>("forget_after_s", "s", 0.1, 3600,
+                                                        "Without a measurement for this long the filter starts anew."),
+    option<&RangeEkfSettings::planar, Settings>("planar",
+                                                "Whether the height is known and only x and y are estimated."),
+    option<&RangeEkfSettings::height_m, Settings>("height_m", "m", -1e5, 1e5, "Height of the tag when planar."),
 };
+
+inline constexpr auto range_ekf_options = range_options<RangeEkfSettings>;
 
 } // namespace locus

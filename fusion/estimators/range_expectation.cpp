@@ -1,5 +1,6 @@
 #include "fusion/estimators/range_expectation.h"
 
+#include "fusion/estimators/nav_track.h"
 #include "fusion/filter/track_state.h"
 
 #include <array>
@@ -44,5 +45,6 @@ RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, 
 
 template RangeExpectation<filter::TrackState> expect(const uwb::Sighting&, const Site&, const CarriedErrors&,
                                                      filter::TrackState&) noexcept;
+template RangeExpectation<NavTrack> expect(const uwb::Sighting&, const Site&, const CarriedErrors&, NavTrack&) noexcept;
 
 } // namespace locus

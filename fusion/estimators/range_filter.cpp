@@ -1,5 +1,6 @@
 #include "fusion/estimators/range_filter.h"
 
+#include "fusion/estimators/nav_track.h"
 #include "fusion/filter/scalar_update.h"
 #include "fusion/filter/track_state.h"
 #include "fusion/geometry/vector.h"
@@ -153,5 +154,6 @@ Estimate RangeFilter<Track>::predict(Timestamp time) const noexcept {
 }
 
 template class RangeFilter<filter::TrackState>;
+template class RangeFilter<NavTrack>;
 
 } // namespace locus

@@ -31,7 +31,8 @@ class RangeFilter : public Estimator {
     RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track);
 
     bool has_position() const noexcept { return missing_ == Missing::nothing; }
-    Timestamp time() const noexcept { return time_; } ///< of the state
+    /// Since the last range or range difference that was used; only where there is a position.
+    double unheard_s(Timestamp time) const noexcept { return to_s(time - used_time_); }
 
     /// Carries the state to `time`, at or after its own.
     void move_to(Timestamp time) noexcept;

@@ -1,4 +1,5 @@
 // The estimators that a configuration can name.
+#include "fusion/estimators/inertial_ekf.h"
 #include "fusion/estimators/range_ekf.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 namespace locus {
 namespace {
-constexpr std::array rows{range_ekf_row};
+constexpr std::array rows{inertial_ekf_row, range_ekf_row};
 }
 
 std::span<const EstimatorRow> estimator_table() { return rows; }

@@ -1,0 +1,121 @@
+#include "fusion/estimators/inertial_ekf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace locus {
+namespace {
+
+/// The aided filter comes in, and goes, over this time: no jump.
+constexpr double change_over_s = 1;
+/// The comparison remembers this long, and at least so many innovations.
+constexpr double memory_s = 1, memory = 200;
+/// Ratio of mean squares above which the aided filter predicts worse: sound sensors stay below 1.15 on recordings,
+/// shaken ones go above 1.35 within seconds. While it only aligns it does no harm, and an outage may leave it further
+/// off.
+constexpr double worse = 1.25, much_worse = 4;
+/// How long the aided filter must have done well before it is published; twice as long after each time it was not.
+constexpr double first_probation_s = 1, longest_probation_s = 600;
+constexpr double clip_sigma = 3;
+
+/// Mean and covariance of the mixture of two estimates of one time.
+Estimate mixed(const Estimate& a, const Estimate& b, double share_of_b) {
+    Estimate mix = share_of_b < 0.5 ? a : b;
+    std::array<double, 6> apart{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        apart[i] = b.position_site_m[i] - a.position_site_m[i];
+        apart[i + 3] = b.velocity_site_mps[i] - a.velocity_site_mps[i];
+        mix.position_site_m[i] = a.position_site_m[i] + share_of_b * apart[i];
+        mix.velocity_site_mps[i] = a.velocity_site_mps[i] + share_of_b * apart[i + 3];
+    }
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+            mix.covariance[6 * i + j] = (1 - share_of_b) * a.covariance[6 * i + j] +
+                                        share_of_b * b.covariance[6 * i + j] +
+                                        share_of_b * (1 - share_of_b) * apart[i] * apart[j];
+    mix.orientation_xyzw = b.orientation_xyzw;
+    return mix;
+}
+
+} // namespace
+
+InertialEkf::InertialEkf(const Site& site, const InertialEkfSettings& settings)
+    : settings_(settings), plain_(site, settings), aided_(site, settings), probation_s_(first_probation_s) {}
+
+Verdict InertialEkf::update(const Measurement& measurement) noexcept {
+    if (std::holds_alternative<ImuSample>(measurement.observation)) return sense(measurement);
+    const Verdict plain = plain_.update(measurement);
+    if (!sensed_) return plain;
+    const Verdict aided = aided_.update(measurement);
+    compare(plain, aided, to_s(measurement.time - compared_));
+    compared_ = measurement.time;
+    turn_to_the_better(measurement.time);
+    return aided_share_ > 0.5 ? aided : plain;
+}
+
+Verdict InertialEkf::sense(const Measurement& measurement) noexcept {
+    if (!settings_.use_imu) return {Exclusion::disabled};
+    if (!sensed_) aided_.restart_from(plain_);
+    sensed_ = true;
+    const Verdict verdict = aided_.update(measurement);
+    turn_to_the_better(measurement.time);
+    return verdict;
+}
+
+void InertialEkf::compare(const Verdict& plain, const Verdict& aided, double dt_s) noexcept {
+    if (!std::isfinite(plain.innovation) || !std::isfinite(aided.innovation)) return;
+    const double limit = clip_sigma * std::min(double{plain.innovation_sigma}, double{aided.innovation_sigma});
+    const double fresh = std::min(-std::expm1(-dt_s / memory_s), 1 / memory);
+    const auto learn = [limit, fresh](double& mean, float innovation) {
+        const double clipped = std::min(std::abs(double{innovation}), limit);
+        mean += fresh * (clipped * clipped - mean);
+    };
+    learn(misfit_plain_, plain.innovation);
+    learn(misfit_aided_, aided.innovation);
+}
+
+bool InertialEkf::aided_is_worse() const noexcept {
+    return plain_.has_position() &&
+           (!aided_.has_position() ||
+            misfit_aided_ > (aided_.track().is_inertial() ? worse : much_worse) * misfit_plain_);
+}
+
+void InertialEkf::turn_to_the_better(Timestamp time) noexcept {
+    const double dt_s = std::clamp(to_s(time - time_), 0.0, 1.0);
+    time_ = time;
+    if (aided_is_worse()) start_aided_again();
+    done_well_s_ = aided_.track().is_inertial() ? done_well_s_ + dt_s : 0;
+    const double step = dt_s / change_over_s;
+    aided_share_ = std::clamp(aided_share_ + (done_well_s_ > probation_s_ ? step : -step), 0.0, 1.0);
+}
+
+void InertialEkf::start_aided_again() noexcept {
+    if (aided_.track().is_inertial()) probation_s_ = std::min(2 * probation_s_, longest_probation_s);
+    aided_.restart_from(plain_);
+    misfit_aided_ = misfit_plain_;
+}
+
+Estimate InertialEkf::predict(Timestamp time) const noexcept {
+    Estimate estimate = plain_.predict(time);
+    if (aided_share_ > 0 && aided_.has_position()) {
+        const Estimate aided = aided_.predict(time);
+        estimate =
+            aided_share_ == 1 || estimate.missing != Missing::nothing ? aided : mixed(estimate, aided, aided_share_);
+    }
+    if (estimate.missing == Missing::nothing && is_out_of_date(time)) estimate.missing = Missing::fresh_measurements;
+    return estimate;
+}
+
+/// Other sources keep the target heard, but where it is goes stale all the same.
+bool InertialEkf::is_out_of_date(Timestamp time) const noexcept {
+    const double believed_s = aided_share_ > 0.5 ? settings_.dead_reckoning_s : settings_.forget_after_s;
+    const double unheard_s =
+        std::min(plain_.unheard_s(time), aided_.has_position() ? aided_.unheard_s(time) : no_limit);
+    return unheard_s > believed_s;
+}
+
+std::unique_ptr<Estimator> make_inertial_ekf(const Site& site, const void* settings) {
+    return std::make_unique<InertialEkf>(site, *static_cast<const InertialEkfSettings*>(settings));
+}
+
+} // namespace locus

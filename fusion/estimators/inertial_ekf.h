@@ -1,0 +1,56 @@
+// The default estimator: two navigation filters on the same measurements, one that uses the inertial sensor and one
+// that knows nothing of it. A sensor may be mounted loosely, clip, or be shaken until its mean is metres per second
+// squared off; nobody can tell from its samples. So the plain filter always runs beside the aided one, which has to
+// earn its place: it is published while its heading is found and its predictions are no worse than the plain one's.
+#pragma once
+
+#include "fusion/estimators/nav_filter.h"
+
+namespace locus {
+
+class InertialEkf final : public Estimator {
+  public:
+    /// `site` outlives the estimator.
+    InertialEkf(const Site& site, const InertialEkfSettings& settings);
+
+    Verdict update(const Measurement& measurement) noexcept override;
+    Estimate predict(Timestamp time) const noexcept override;
+    std::unique_ptr<Estimator> clone() const override { return std::make_unique<InertialEkf>(*this); }
+    void copy_from(const Estimator& other) noexcept override { *this = static_cast<const InertialEkf&>(other); }
+
+    /// For tests.
+    const NavTrack& track() const noexcept { return aided_.track(); }
+    double aided_share() const noexcept { return aided_share_; }
+    double misfit() const noexcept { return misfit_aided_ / misfit_plain_; }
+
+  private:
+    Verdict sense(const Measurement& measurement) noexcept;
+    void compare(const Verdict& plain, const Verdict& aided, double dt_s) noexcept;
+    void turn_to_the_better(Timestamp time) noexcept;
+    bool aided_is_worse() const noexcept;
+    void start_aided_again() noexcept;
+    bool is_out_of_date(Timestamp time) const noexcept;
+
+    InertialEkfSettings settings_;
+    NavFilter plain_;
+    NavFilter aided_;
+    double misfit_plain_ = 0; ///< mean square of the last innovations, each clipped
+    double misfit_aided_ = 0; ///< of the same measurements
+    double aided_share_ = 0;  ///< 0..1, of the aided filter in what is published
+    double probation_s_;      ///< how long it must do well first
+    double done_well_s_ = 0;
+    bool sensed_ = false; ///< there is an inertial sensor
+    Timestamp compared_{};
+    Timestamp time_{};
+};
+
+std::unique_ptr<Estimator> make_inertial_ekf(const Site& site, const void* settings);
+
+inline constexpr auto inertial_ekf_options = joined(range_options<InertialEkfSettings>, inertial_only_options);
+
+inline constexpr EstimatorRow inertial_ekf_row{
+    "inertial_ekf",
+    "The default: everything that comes, with an inertial sensor's attitude and biases where there is one.",
+    option_table<InertialEkfSettings>(inertial_ekf_options), make_inertial_ekf};
+
+} // namespace locus

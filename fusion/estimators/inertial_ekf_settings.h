@@ -1,0 +1,75 @@
+// What can be set of the default estimator beyond the range filter's settings. Where the defaults come from:
+// - accelerometer 0.1 m/s^2/sqrt(Hz), gyroscope 0.003 rad/s/sqrt(Hz): twenty times the data sheets of phone-class MEMS
+//   (BMI088: 0.0019 and 0.00024), because what a sensor on a person or a drone adds is vibration that its sampling
+//   folds down and clipping. Against motion capture the sound flights of util_uwb_tdoa show 0.1-0.2 m/s^2 that last
+//   about half a second, which is 0.1. Halving or doubling either changes errors on recordings by less than a tenth.
+// - biases 0.3 m/s^2 and 0.01 rad/s: zero-g offset and zero-rate offset over temperature after the maker's calibration
+//   (30 mg, 0.6 deg/s); walks: they may change by a tenth of that in ten minutes, and by warming up.
+// - aligning 0.25 m/s^2/sqrt(Hz): two and a half degrees of tilt (0.4 m/s^2) that last a third of a second.
+// - a height sensor 0.05 m and 0.1 m for 5 s: a laser's data sheet (VL53L1X: 20 mm and its tilt), and floors that are
+// not
+//   flat: thresholds, boxes, pallets.
+#pragma once
+
+#include "fusion/estimators/range_ekf_settings.h"
+
+namespace locus {
+
+struct InertialEkfSettings : RangeEkfSettings {
+    bool use_imu = true;
+    Vec3 antenna_body_m{0, 0, 0};
+    double acceleration_noise_mps2_rthz = 0.1;
+    double angular_rate_noise_radps_rthz = 0.003;
+    double acceleration_bias_sigma_mps2 = 0.3;
+    double acceleration_bias_walk_mps2_rts = 0.01;
+    double angular_rate_bias_sigma_radps = 0.01;
+    double angular_rate_bias_walk_radps_rts = 0.0005;
+    double aligning_noise_mps2_rthz = 0.25;
+    bool zero_velocity = true;
+    double dead_reckoning_s = 10;
+    double height_sigma_m = 0.05;
+    double height_error_sigma_m = 0.1;
+    double height_error_time_s = 5;
+    double height_offset_m = 0;
+    double speed_sigma_of_wheel_mps = 0.2;
+};
+
+inline constexpr std::array inertial_only_options{
+    option<&InertialEkfSettings::use_imu>("use_imu", "Whether samples of an inertial sensor are used."),
+    option<&InertialEkfSettings::antenna_body_m>(
+        "antenna_body_m", "m", -100, 100,
+        "From the inertial sensor to the tag's antenna, along the sensor's axes: [x, y, z]."),
+    option<&InertialEkfSettings::acceleration_noise_mps2_rthz>(
+        "acceleration_noise_mps2_rthz", "m/s^2/sqrt(Hz)", 1e-6, 100,
+        "Density of the accelerometer's noise where it is mounted, vibration included."),
+    option<&InertialEkfSettings::angular_rate_noise_radps_rthz>(
+        "angular_rate_noise_radps_rthz", "rad/s/sqrt(Hz)", 1e-8, 10,
+        "Density of the gyroscope's noise where it is mounted, vibration included."),
+    option<&InertialEkfSettings::acceleration_bias_sigma_mps2>("acceleration_bias_sigma_mps2", "m/s^2", 0, 20,
+                                                               "Bias that the accelerometer may have at the start."),
+    option<&InertialEkfSettings::acceleration_bias_walk_mps2_rts>("acceleration_bias_walk_mps2_rts", "m/s^2/sqrt(s)", 0,
+                                                                  20, "How much that bias changes with time."),
+    option<&InertialEkfSettings::angular_rate_bias_sigma_radps>("angular_rate_bias_sigma_radps", "rad/s", 0, 1,
+                                                                "Bias that the gyroscope may have at the start."),
+    option<&InertialEkfSettings::angular_rate_bias_walk_radps_rts>("angular_rate_bias_walk_radps_rts", "rad/s/sqrt(s)",
+                                                                   0, 1, "How much that bias changes with time."),
+    option<&InertialEkfSettings::aligning_noise_mps2_rthz>(
+        "aligning_noise_mps2_rthz", "m/s^2/sqrt(Hz)", 0.01, 100,
+        "Noise of the acceleration while the sensor's heading is being found; tilt errors included."),
+    option<&InertialEkfSettings::zero_velocity>(
+        "zero_velocity", "Whether a sensor that lies still means that the target stands; not for lifts."),
+    option<&InertialEkfSettings::dead_reckoning_s>(
+        "dead_reckoning_s", "s", 0, 3600, "How long the inertial sensor alone carries a pose, without any range."),
+    option<&InertialEkfSettings::height_sigma_m>("height_sigma_m", "m", 0.001, 100,
+                                                 "Noise of a height whose device states none."),
+    option<&InertialEkfSettings::height_error_sigma_m>(
+        "height_error_sigma_m", "m", 0, 100, "Error of a height that stays for a while (the floor is not flat)."),
+    option<&InertialEkfSettings::height_error_time_s>("height_error_time_s", "s", 0.01, 1e6,
+                                                      "Time in which that error becomes another one."),
+    option<&InertialEkfSettings::height_offset_m>("height_offset_m", "m", -100, 100,
+                                                  "What the height sensor tells less the height of the antenna."),
+    option<&InertialEkfSettings::speed_sigma_of_wheel_mps>("speed_sigma_of_wheel_mps", "m/s", 0.001, 100,
+                                                           "Noise of a wheel speed whose device states none."),
+};
+
+} // namespace locus

@@ -1,0 +1,105 @@
+#include "fusion/estimators/nav_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace locus {
+namespace {
+
+constexpr std::int32_t height_error = -2; ///< beside the anchors' indices and the common range error
+
+NavModel nav_model(const InertialEkfSettings& s) {
+    NavModel model;
+    model.kinematic = {{s.acceleration_sigma_mps2, s.acceleration_time_s}, s.speed_sigma_mps, s.planar};
+    model.imu = {s.acceleration_noise_mps2_rthz, s.angular_rate_noise_radps_rthz, s.acceleration_bias_walk_mps2_rts,
+                 s.angular_rate_bias_walk_radps_rts};
+    model.acceleration_bias_sigma_mps2 = s.acceleration_bias_sigma_mps2;
+    model.angular_rate_bias_sigma_radps = s.angular_rate_bias_sigma_radps;
+    model.aligning_noise_mps2_rthz = s.aligning_noise_mps2_rthz;
+    model.antenna_body_m = vector(s.antenna_body_m);
+    return model;
+}
+
+constexpr Duration standstill_period = std::chrono::milliseconds{100}; ///< what is seen more often is no news
+constexpr double standstill_sigma_mps = 0.05;                          ///< somebody who stands sways
+constexpr double least_speed_mps = 0.01;
+
+double variance(float stated_sigma, double otherwise) {
+    const double sigma = std::isfinite(stated_sigma) && stated_sigma > 0 ? double{stated_sigma} : otherwise;
+    return sigma * sigma;
+}
+
+} // namespace
+
+NavFilter::NavFilter(const Site& site, const InertialEkfSettings& settings)
+    : RangeFilter(site, settings, NavTrack(nav_model(settings))), settings_(settings),
+      height_robust_(settings.robust_scale), speed_robust_(settings.robust_scale),
+      standstill_robust_(settings.robust_scale) {}
+
+Verdict NavFilter::update(const Measurement& measurement) noexcept {
+    if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return take(*imu, measurement.time);
+    const auto* height = std::get_if<Height>(&measurement.observation);
+    const auto* wheel = std::get_if<WheelSpeed>(&measurement.observation);
+    if (height == nullptr && wheel == nullptr) return RangeFilter::update(measurement);
+    if (!has_position()) return {Exclusion::waiting_for_start};
+    move_to(measurement.time);
+    const Verdict verdict = height != nullptr ? take(*height) : take(*wheel);
+    if (verdict.reason == Exclusion::none) note_use(measurement.observation, measurement.time);
+    return verdict;
+}
+
+Verdict NavFilter::take(const ImuSample& sample, Timestamp time) noexcept {
+    if (has_position()) move_to(time);
+    track_.sense(sample, time, has_position());
+    if (settings_.zero_velocity && track_.is_inertial() && track_.is_at_rest() && time - stood_ >= standstill_period)
+        stand(time);
+    return {};
+}
+
+void NavFilter::stand(Timestamp time) noexcept {
+    stood_ = time;
+    for (int axis = 0; axis < 3; ++axis) {
+        Scalar scalar;
+        scalar.jacobian.setZero(track_.size());
+        scalar.jacobian(NavTrack::place(axis, 1)) = 1;
+        scalar.innovation = -track_.velocity_site_mps()(axis);
+        scalar.variance = standstill_sigma_mps * standstill_sigma_mps;
+        weigh(scalar, standstill_gates_[static_cast<std::size_t>(axis)], standstill_robust_);
+    }
+}
+
+Verdict NavFilter::take(const Height& height) noexcept {
+    Scalar scalar;
+    const filter::WanderModel error{settings_.height_error_sigma_m, settings_.height_error_time_s};
+    const int error_at = track_.wanderer(height_error, error);
+    scalar.jacobian.setZero(track_.size());
+    track_.spread_gradient(Eigen::Vector3d::UnitZ(), scalar.jacobian);
+    scalar.jacobian(error_at) = 1;
+    const double antenna_m = height.height_site_m - settings_.height_offset_m - track_.state(error_at);
+    scalar.innovation = antenna_m - track_.antenna_site_m().z();
+    scalar.variance = variance(height.sigma_m, settings_.height_sigma_m);
+    return weigh(scalar, height_gate_, height_robust_);
+}
+
+/// Backwards counts as fast as forwards: which way the wheels point is not known here.
+Verdict NavFilter::take(const WheelSpeed& wheel) noexcept {
+    const Eigen::Vector2d velocity_mps = track_.velocity_site_mps().head<2>();
+    const double speed_mps = velocity_mps.norm();
+    Scalar scalar;
+    scalar.jacobian.setZero(track_.size());
+    for (int axis = 0; axis < 2; ++axis) // at rest the speed has no gradient: such a sample moves nothing
+        scalar.jacobian(NavTrack::place(axis, 1)) = velocity_mps(axis) / std::max(speed_mps, least_speed_mps);
+    scalar.innovation = std::abs(wheel.speed_mps) - speed_mps;
+    scalar.variance = variance(wheel.sigma_mps, settings_.speed_sigma_of_wheel_mps);
+    return weigh(scalar, speed_gate_, speed_robust_);
+}
+
+void NavFilter::restart_from(const NavFilter& other) noexcept {
+    const NavTrack before = track_;
+    const InertialEkfSettings settings = settings_;
+    *this = other;
+    settings_ = settings;
+    track_.keep_sensor(before);
+}
+
+} // namespace locus

@@ -1,0 +1,39 @@
+// A navigation track aided by whatever comes: ranges and range differences as every range filter takes them, and beside
+// them inertial samples, heights and speeds.
+#pragma once
+
+#include "fusion/estimators/inertial_ekf_settings.h"
+#include "fusion/estimators/nav_track.h"
+#include "fusion/estimators/range_filter.h"
+
+namespace locus {
+
+class NavFilter final : public RangeFilter<NavTrack> {
+  public:
+    /// `site` outlives the filter.
+    NavFilter(const Site& site, const InertialEkfSettings& settings);
+
+    Verdict update(const Measurement& measurement) noexcept override;
+    std::unique_ptr<Estimator> clone() const override { return std::make_unique<NavFilter>(*this); }
+    void copy_from(const Estimator& other) noexcept override { *this = static_cast<const NavFilter&>(other); }
+
+    /// Takes over all that another one knows of the target; what the inertial sensor has taught stays.
+    void restart_from(const NavFilter& other) noexcept;
+
+    using RangeFilter::has_position;
+    using RangeFilter::unheard_s;
+
+  private:
+    Verdict take(const ImuSample& sample, Timestamp time) noexcept;
+    void stand(Timestamp time) noexcept;
+    Verdict take(const Height& height) noexcept;
+    Verdict take(const WheelSpeed& wheel) noexcept;
+
+    InertialEkfSettings settings_;
+    filter::Gate height_gate_, speed_gate_;
+    std::array<filter::Gate, 3> standstill_gates_;
+    filter::RobustGain height_robust_, speed_robust_, standstill_robust_;
+    Timestamp stood_{};
+};
+
+} // namespace locus

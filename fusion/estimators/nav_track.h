@@ -1,0 +1,91 @@
+// How a target moves, with an inertial sensor or without. Three ways, each with the same first six numbers, so that the
+// track goes from one to the next without a jump:
+// - kinematic: no sensor; an acceleration that dies away (filter/motion.h).
+// - aligning: the sensor tells what is up but not where it is turned. The acceleration in its level frame is known, and
+//   the site's follows from it by (cos, sin) of the unknown heading, which enter linearly: no heading has to be
+//   guessed, no number of hypotheses to be carried (Scherzinger 1996, "Inertial navigator error models for large
+//   heading uncertainty").
+// - inertial: strapdown mechanisation with an error-state filter of fifteen states.
+#pragma once
+
+#include "fusion/filter/kinematics.h"
+#include "fusion/filter/scalar_update.h"
+#include "fusion/filter/wandering_state.h"
+#include "fusion/inertial/held_imu.h"
+#include "fusion/inertial/levelling.h"
+#include "fusion/inertial/rest.h"
+#include "fusion/inertial/strapdown.h"
+#include "fusion/pose.h"
+
+namespace locus {
+
+struct NavModel {
+    filter::TrackModel kinematic;
+    inertial::ImuNoise imu;
+    double acceleration_bias_sigma_mps2 = 0;
+    double angular_rate_bias_sigma_radps = 0;
+    double aligning_noise_mps2_rthz = 0;
+    Eigen::Vector3d antenna_body_m{0, 0, 0}; ///< from the inertial sensor to the tag's antenna
+};
+
+class NavTrack : public filter::WanderingState<inertial::navigation_size> {
+  public:
+    enum class Mode : std::uint8_t { kinematic, aligning, inertial };
+
+    explicit NavTrack(const NavModel& model) noexcept;
+
+    /// At rest at `antenna_site_m` with covariance in m^2, not yet inertial; all wanderers are forgotten.
+    void start(const Eigen::Vector3d& antenna_site_m, const Eigen::Matrix3d& covariance_m2) noexcept;
+
+    /// `dt_s` >= 0.
+    void predict(double dt_s) noexcept;
+
+    /// The state is at `time`. Before start() it only levels.
+    void sense(const ImuSample& sample, Timestamp time, bool started) noexcept;
+
+    Eigen::Vector3d antenna_site_m() const noexcept;
+    /// From the gradient of an observation by the antenna's position to its gradient by the state, which was zero.
+    void spread_gradient(const Eigen::Vector3d& gradient, Vector& jacobian) const noexcept;
+    void correct(const filter::Prediction<Vector>& prediction, double innovation, double variance,
+                 const filter::Share& share) noexcept;
+    void report(Estimate& estimate) const noexcept;
+
+    /// What the other knows of the inertial sensor, but no more: the track goes on without it until it is aligned
+    /// again.
+    void keep_sensor(const NavTrack& other) noexcept;
+
+    bool is_inertial() const noexcept { return mode_ == Mode::inertial; }
+    bool is_at_rest() const noexcept { return rest_.is_at_rest(); }
+    Mode mode() const noexcept { return mode_; }
+    Eigen::Vector3d velocity_site_mps() const noexcept { return {state(1), state(4), state(7)}; }
+    const Eigen::Quaterniond& body_to_site() const noexcept { return body_to_site_; }
+
+  private:
+    static constexpr int motion_size = 9;
+    Eigen::Vector3d lever_site_m() const noexcept;
+    inertial::Rates unbiased() const noexcept;
+    inertial::Motion motion() const noexcept;
+    void set_motion(const inertial::Motion& motion) noexcept;
+
+    void predict_kinematic(double dt_s) noexcept;
+    void predict_aligning(double dt_s) noexcept;
+    void predict_inertial(double dt_s) noexcept;
+    template <class Transition>
+    void move_core(const Transition& transition, const Transition& noise, double dt_s) noexcept;
+
+    void level(double dt_s) noexcept;
+    void begin_aligning() noexcept;
+    void begin_inertial_if_aligned() noexcept;
+    void fall_back() noexcept;
+    void keep_way(const CoreMap& map) noexcept;
+
+    NavModel model_;
+    Mode mode_ = Mode::kinematic;
+    inertial::HeldImu imu_;
+    inertial::Levelling levelling_;
+    inertial::Rest rest_;
+    double since_imu_s_ = 0;
+    Eigen::Quaterniond body_to_site_ = Eigen::Quaterniond::Identity(); ///< in inertial mode
+};
+
+} // namespace locus
