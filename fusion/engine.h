@@ -24,7 +24,7 @@ struct FusionSettings {
     int max_targets = 64;
     double max_measurement_rate_hz = 1000;
     bool accept_unknown_targets = true;
-    std::string estimator = "range_ekf";
+    std::string estimator = "inertial_ekf";
 };
 
 inline constexpr std::array fusion_options{

@@ -65,6 +65,8 @@ void add_replay(CLI::App& root, int& exit_code) {
     app.add_option("--rate", options->rate_hz, "Poses per second; left out: fusion.rate_hz of the configuration")
         ->check(CLI::Range(1.0, 1000.0))
         ->type_name("HZ");
+    app.add_flag("--smooth", options->request.smooth,
+                 "Poses that know what came after them as well: for evaluation and maps, not for live use");
     app.add_flag("--json", options->json, "Print the summary as JSON");
     app.footer("Example:\n  locus replay flight.jsonl --config hall.yaml --poses flight.tum\n"
                "The same recording and configuration give the same bytes, every time.\n"

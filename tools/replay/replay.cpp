@@ -3,10 +3,12 @@
 #include "daemon/socket/pose_line.h"
 #include "fusion/engine.h"
 #include "tools/replay/pose_file.h"
+#include "tools/replay/smooth.h"
 #include "tools/replay/ticker.h"
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace locus::replay {
 namespace {
@@ -17,6 +19,7 @@ class Run {
         : settings_(settings), request_(request), engine_(settings.engine),
           ticker_(engine_, [this](std::span<const Pose> poses) { take_poses(poses); }) {
         for (const std::string& path : request.pose_files) files_.push_back(open_pose_file(path));
+        if (request.smooth) smoother_.emplace(settings.engine);
     }
 
     Summary go() {
@@ -24,8 +27,10 @@ class Run {
             if (!summary_.first_arrival) summary_.first_arrival = summary_.last_arrival = arrival;
             summary_.last_arrival = std::max(summary_.last_arrival, arrival);
             ticker_.take(m, arrival);
+            if (smoother_) smoother_->keep(m);
         });
         ticker_.finish();
+        if (smoother_) smooth();
         for (const auto& file : files_) file->close();
         summary_.engine = engine_.counters();
         return std::move(summary_);
@@ -42,8 +47,20 @@ class Run {
             pose.published = pose.estimate.time;
             if (target.poses++ == 0) target.first = pose.estimate.time;
             target.last = pose.estimate.time;
-            for (const auto& file : files_) file->write(pose, name);
+            if (smoother_)
+                smoother_->keep(pose, name);
+            else
+                write(pose, name);
         }
+    }
+
+    void smooth() {
+        smoother_->finish([this](const Pose& pose, const std::string& target) { write(pose, target); });
+        summary_.one_way = smoother_->one_way();
+    }
+
+    void write(const Pose& pose, const std::string& target) {
+        for (const auto& file : files_) file->write(pose, target);
     }
 
     const Settings& settings_;
@@ -51,6 +68,7 @@ class Run {
     Engine engine_;
     Ticker ticker_;
     std::vector<std::unique_ptr<PoseFile>> files_;
+    std::optional<Smoother> smoother_;
     Summary summary_;
 };
 

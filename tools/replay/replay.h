@@ -17,6 +17,7 @@ struct Request {
     std::string recording;
     std::vector<std::string> pose_files;
     std::string target; ///< only this one's poses; empty: all
+    bool smooth = false;
 };
 
 struct Summary {
@@ -28,6 +29,7 @@ struct Summary {
 
     ReadReport read;
     EngineCounters engine;
+    std::uint64_t one_way = 0; ///< measurements that could not be run backwards for smoothing
     std::optional<Timestamp> first_arrival;
     Timestamp last_arrival{};
     std::map<std::string, Target> targets;

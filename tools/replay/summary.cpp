@@ -84,6 +84,8 @@ std::vector<std::string> summary_lines(const Summary& summary) {
     std::vector<std::string> lines{fmt::format("{} of recording, {} lines, {} bad", tools::duration(span_s(summary)),
                                                summary.read.lines, summary.read.bad_lines)};
     append_reading(lines, summary.read);
+    if (summary.one_way > 0)
+        lines.push_back(fmt::format("{} measurements cannot be run backwards and are not smoothed", summary.one_way));
     append(lines, verdict_table(summary.engine));
     append(lines, target_table(summary));
     return lines;
@@ -98,6 +100,7 @@ std::string summary_json(const Summary& summary) {
                           {"lines_of_unknown_inputs", summary.read.lines_of_unknown_inputs},
                           {"refused_by_decoders", by_refusal(summary.read)},
                           {"measurements", summary.engine.received},
+                          {"one_way", summary.one_way},
                           {"verdicts", by_name(summary.engine)},
                           {"rolled_back", summary.engine.rolled_back},
                           {"targets", nlohmann::json::array()}};

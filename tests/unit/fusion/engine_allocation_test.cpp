@@ -27,6 +27,9 @@ Measurement random_measurement(std::mt19937& random, double now_s, std::uint32_t
     if (sequence % 7 == 0) measurement.observation = PeerRange{address(tag), address(tag + 1), 3, unknown_f};
     if (sequence % 11 == 0) measurement.observation = Range{address(anchor), address(tag), std::nan("")};
     if (sequence % 13 == 0) measurement.observation = SignalStrength{address(sequence), address(tag), -60};
+    if (sequence % 3 == 0) measurement.observation = ImuSample{address(tag), {0.1, 0, 9.8}, {0, 0, 0.1}};
+    if (sequence % 23 == 0) measurement.observation = Height{address(tag), 1.5, unknown_f};
+    if (sequence % 29 == 0) measurement.observation = WheelSpeed{address(tag), 1.5};
     if (sequence % 17 == 0) measurement.time = at(now_s + 1);
     return measurement;
 }
@@ -57,7 +60,7 @@ std::uint64_t allocations_of_a_run(EngineSettings settings) {
 }
 
 TEST(Engine, AllocatesNothingAfterConstruction) {
-    for (const char* estimator : {"follower", "range_ekf"}) {
+    for (const char* estimator : {"follower", "range_ekf", "inertial_ekf"}) {
         auto settings = follower_settings();
         settings.fusion.estimator = estimator;
         settings.fusion.max_targets = 12;

@@ -34,6 +34,12 @@ EngineSettings with_range_ekf() {
     return settings;
 }
 
+EngineSettings with_inertial_ekf() {
+    auto settings = short_memory(follower_settings());
+    settings.fusion.estimator = "inertial_ekf";
+    return settings;
+}
+
 /// Often none, often as late as just counts.
 rc::Gen<int> delay_ms() {
     using namespace rc;
@@ -54,6 +60,14 @@ Observation seen(const EngineSettings& settings, double time_s, std::size_t anch
     return Range{address(anchor), address(tag), here_m + error_m};
 }
 
+/// What a tag with more sensors tells besides: now and then a sample of another kind.
+Observation told(const EngineSettings& settings, double time_s, std::size_t anchor, std::uint64_t tag, int noise) {
+    if (settings.fusion.estimator != "inertial_ekf" || noise % 3 != 0) return seen(settings, time_s, anchor, tag, noise);
+    if (noise % 9 == 0) return Height{address(tag), 1.2 + 0.001 * noise, unknown_f};
+    if (noise % 9 == 3) return WheelSpeed{address(tag), 2 + 0.01 * noise};
+    return ImuSample{address(tag), {-2 * std::sin(time_s), -2 * std::cos(time_s), 9.8}, {0, 0, 0.001 * noise}};
+}
+
 /// Times fall on a grid of 1 ms, so some samples share one.
 rc::Gen<Arriving> arriving(const EngineSettings& settings) {
     using namespace rc;
@@ -61,7 +75,7 @@ rc::Gen<Arriving> arriving(const EngineSettings& settings) {
                                gen::inRange(100, 102), gen::inRange(0, 100)),
                     [&settings](const std::tuple<int, int, int, int, int, int>& numbers) {
                         const auto [time_ms, delay, input, anchor, tag, noise] = numbers;
-                        const auto observation = seen(settings, 0.001 * time_ms, static_cast<std::size_t>(anchor),
+                        const auto observation = told(settings, 0.001 * time_ms, static_cast<std::size_t>(anchor),
                                                       static_cast<std::uint64_t>(tag), noise);
                         return Arriving{{at(0.001 * time_ms), 0, static_cast<std::uint16_t>(input), observation},
                                         at(0.001 * (time_ms + delay))};
@@ -163,7 +177,7 @@ TEST_P(EngineOrder, CountersDoNotKnowTheOrderEither) {
 
 std::string name_of(const testing::TestParamInfo<EngineSettings (*)()>& info) { return info.param().fusion.estimator; }
 
-INSTANTIATE_TEST_SUITE_P(Of, EngineOrder, testing::Values(with_follower, with_range_ekf), name_of);
+INSTANTIATE_TEST_SUITE_P(Of, EngineOrder, testing::Values(with_follower, with_range_ekf, with_inertial_ekf), name_of);
 
 } // namespace
 } // namespace locus::engine_test
