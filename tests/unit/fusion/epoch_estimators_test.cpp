@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace locus {
+namespace locus::epoch_test {
 namespace {
 
 constexpr Vec3 here{1, -1, 1.2};
@@ -203,4 +203,4 @@ TEST(EpochGatherer, AnAnchorThatIsHeardTwiceBeforeThereIsAPositionOpensNoEpoch) 
 }
 
 } // namespace
-} // namespace locus
+} // namespace locus::epoch_test

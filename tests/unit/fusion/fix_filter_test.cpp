@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-namespace locus::filter {
+namespace locus::filter::fix_test {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -204,4 +204,4 @@ TEST(PcaWindow, LeavesATargetAtRestAsItIsAndBelievesItLess) {
 }
 
 } // namespace
-} // namespace locus::filter
+} // namespace locus::filter::fix_test
