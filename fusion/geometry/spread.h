@@ -43,8 +43,7 @@ Spread<D> spread_of(const Points& points_m) {
     }
     Matrix scatter_m2;
     for (int i = 0; i < D; ++i)
-        for (int j = 0; j <= i; ++j)
-            scatter_m2(i, j) = scatter_m2(j, i) = share * places_m.col(i).dot(places_m.col(j));
+        for (int j = 0; j <= i; ++j) scatter_m2(i, j) = scatter_m2(j, i) = share * places_m.col(i).dot(places_m.col(j));
     const double square_m2 = scatter_m2.trace();
     const Matrix across = adjugate(Matrix(scatter_m2 * (1 / square_m2)));
     const Matrix sharper = across * across; // once more: the normal stands out by the square

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace locus::uwb {
@@ -17,49 +16,47 @@ constexpr int max_steps = 40;
 constexpr double small_gain = 1e-3;
 constexpr double first_damping = 1e-3;
 
-/// One number for every anchor.
-using PerAnchor = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, Epoch::max_anchors, 1>;
-
-/// What range_model.h's sight_of() is for one anchor, for all of them: gradient and range, zero for no_anchor. In columns,
-/// because square roots and divisions are most of the work and the processor takes them two at a time.
-struct Sights {
-    std::array<PerAnchor, 3> gradient;
-    PerAnchor range_m;
-};
+/// As seen from a position: the direction to every anchor and, last, its distance; zero for no_anchor.
+using Sights = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, Epoch::max_anchors>;
+/// What every row measured, where Sights have the distance. Kept in fours like them: numbers that were stored one by
+/// one and are loaded in pairs make the processor wait.
+using Values = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, static_cast<int>(max_observations)>;
 
 void look(const Epoch& epoch, const Eigen::Vector3d& position_m, Sights& sights) {
-    for (int axis = 0; axis < 3; ++axis)
-        sights.gradient[axis] = position_m(axis) - epoch.anchors_m.row(axis).transpose().array();
-    const auto& [x, y, z] = sights.gradient;
-    sights.range_m = (x.square() + y.square() + z.square()).sqrt();
-    const PerAnchor inverse = sights.range_m.max(on_anchor_m).inverse();
-    for (PerAnchor& coordinate : sights.gradient) {
-        coordinate *= inverse;
-        coordinate(Epoch::no_anchor) = 0;
+    sights.resize(4, epoch.anchors_m.cols());
+    sights.col(Epoch::no_anchor).setZero();
+    for (int i = 1; i < epoch.anchors_m.cols(); ++i) {
+        const Sight sight = sight_of(position_m, epoch.anchors_m.col(i));
+        for (int axis = 0; axis < 3; ++axis) sights(axis, i) = -sight.gradient(axis);
+        sights(3, i) = sight.range_m;
     }
-    sights.range_m(Epoch::no_anchor) = 0;
 }
 
-/// Element by element: what comes from different places must not be loaded in pairs, the processor would wait for it.
-template <int D>
-typename NormalEquations<D>::Equation equation(const Row& row, const Sights& sights) {
-    typename NormalEquations<D>::Equation equation;
-    for (int i = 0; i < D; ++i)
-        equation(i) = row.inverse_sigma * (sights.gradient[i](row.b) - sights.gradient[i](row.a));
-    equation(D) = row.inverse_sigma * (row.value_m - (sights.range_m(row.b) - sights.range_m(row.a)));
-    return equation;
+Values values_of(const Epoch& epoch) {
+    Values values = Values::Zero(4, epoch.rows.size());
+    for (std::size_t i = 0; i < epoch.rows.size(); ++i) values(3, i) = epoch.rows[i].value_m;
+    return values;
 }
 
 /// The rows linearised at a position, eq. 9-10.
 template <int D>
-NormalEquations<D> linearise(const Epoch& epoch, const Eigen::Vector3d& position_m) {
+NormalEquations<D> linearise(const Epoch& epoch, const Values& values, const Eigen::Vector3d& position_m) {
     Sights sights;
     look(epoch, position_m, sights);
-    return sum_of_rows<D>(epoch, [&](const Row& row) { return equation<D>(row, sights); });
+    return sum_of_rows<D>(epoch, [&](const Row& row) -> typename NormalEquations<D>::Equation {
+        const Eigen::Vector4d full =
+            row.inverse_sigma * (values.col(&row - epoch.rows.data()) - (sights.col(row.b) - sights.col(row.a)));
+        if constexpr (D == 3)
+            return full;
+        else
+            return {full(0), full(1), full(3)};
+    });
 }
 
 /// No step is longer than the anchors stand apart: beyond, the linearisation says nothing.
-double longest_step_m(const Epoch& epoch) { return epoch.real_anchors_m().colwise().norm().maxCoeff(); }
+double longest_step_m(const Epoch& epoch) {
+    return std::sqrt(epoch.real_anchors_m().colwise().squaredNorm().maxCoeff());
+}
 
 template <int D>
 Eigen::Vector3d damped_step(const NormalEquations<D>& here, double damping, double longest_m) {
@@ -76,15 +73,16 @@ Eigen::Vector3d damped_step(const NormalEquations<D>& here, double damping, doub
 template <int D>
 Minimum<D> refine(const Epoch& epoch, const Eigen::Vector3d& start_m, const Minimum<D>* known) {
     const double longest_m = longest_step_m(epoch);
+    const Values values = values_of(epoch);
     Eigen::Vector3d position_m = start_m;
-    NormalEquations<D> here = linearise<D>(epoch, position_m);
+    NormalEquations<D> here = linearise<D>(epoch, values, position_m);
     double damping = 0;
     for (int i = 0; i < max_steps; ++i) {
         const Eigen::Vector3d step = damped_step(here, damping, longest_m);
         if (known && known->is_at(position_m + step)) return *known;
         if (std::abs(step.head<D>().dot(here.projection())) < small_gain)
             return {position_m + step, here.information(), here.cost(), true};
-        const NormalEquations<D> there = linearise<D>(epoch, position_m + step);
+        const NormalEquations<D> there = linearise<D>(epoch, values, position_m + step);
         if (there.cost() < here.cost()) {
             position_m += step;
             here = there;
