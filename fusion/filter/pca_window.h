@@ -20,7 +20,7 @@
 namespace locus::filter {
 
 struct PcaModel {
-    int window = 100; ///< fixes at most, 5 to PcaWindow::most
+    int window = 100;    ///< fixes at most, 5 to PcaWindow::most
     double straight = 1; ///< variance across the axis, over that of the fixes, that is still straight
 };
 

@@ -17,29 +17,45 @@ void TrackState::start(const Eigen::Vector3d& position_m, const Eigen::Matrix3d&
     }
 }
 
+namespace {
+
+/// F x for the transition F of axis_step(): the numbers below its diagonal are zero and the upper two on it are one.
+template <class Numbers>
+void advance(const Eigen::Matrix3d& transition, Numbers&& position, Numbers&& velocity, Numbers&& acceleration) {
+    position += transition(0, 1) * velocity + transition(0, 2) * acceleration;
+    velocity += transition(1, 2) * acceleration;
+    acceleration *= transition(2, 2);
+}
+
+} // namespace
+
+/// F P F' in the upper half: first P F', column by column, then F from the left, three numbers of a column at a time.
 void TrackState::predict(double dt_s) noexcept {
-    // The transition is one 3 x 3 block three times and a diagonal, so the products are taken block by block.
+    if (dt_s == 0) return;
     const AxisStep step = axis_step(model_.motion, dt_s);
     const int axes = model_.planar ? 2 : 3;
-    for (int i = 0; i < 3; ++i) state.segment<3>(3 * i) = (step.transition * state.segment<3>(3 * i)).eval();
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i <= j; ++i)
-            covariance.block<3, 3>(3 * i, 3 * j) =
-                (step.transition * covariance.block<3, 3>(3 * i, 3 * j) * step.transition.transpose()).eval();
-    for (int i = 0; i < axes; ++i) covariance.block<3, 3>(3 * i, 3 * i) += step.noise;
-
-    for (int k = motion_size; k < size(); ++k) {
-        const WanderModel& wander = wanderers_[k - motion_size].model;
-        const WanderStep wander_by = wander_step(wander.sigma, wander.time_s, dt_s);
-        state(k) *= wander_by.keep;
-        for (int i = 0; i < 3; ++i)
-            covariance.block<3, 1>(3 * i, k) =
-                (step.transition * covariance.block<3, 1>(3 * i, k) * wander_by.keep).eval();
-        covariance.col(k).segment(motion_size, k - motion_size) *= wander_by.keep;
-        covariance.row(k).tail(size() - k) *= wander_by.keep;
-        covariance(k, k) = covariance(k, k) * wander_by.keep + wander_by.variance;
+    const auto motion = [this](int column) { return covariance.col(column).head<motion_size>(); };
+    for (int i = 0; i < motion_size; i += 3) {
+        advance(step.transition, state(i), state(i + 1), state(i + 2));
+        advance(step.transition, motion(i), motion(i + 1), motion(i + 2));
     }
-    covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
+    for (int k = motion_size; k < size(); ++k) wander(k, dt_s);
+    for (int k = 0; k < size(); ++k)
+        for (int i = 0; i < std::min(k + 1, motion_size); i += 3)
+            advance(step.transition, covariance(i, k), covariance(i + 1, k), covariance(i + 2, k));
+    for (int i = 0; i < axes; ++i) covariance.block<3, 3>(3 * i, 3 * i) += step.noise;
+    for (int k = 0; k < size(); ++k)
+        for (int i = 0; i < k; ++i) covariance(k, i) = covariance(i, k);
+}
+
+/// One number that wanders: its column down to itself, and its row beyond.
+void TrackState::wander(int k, double dt_s) noexcept {
+    const WanderModel& model = wanderers_[static_cast<std::size_t>(k - motion_size)].model;
+    const WanderStep by = wander_step(model.sigma, model.time_s, dt_s);
+    state(k) *= by.keep;
+    covariance.col(k).head(k) *= by.keep;
+    covariance.row(k).tail(size() - k) *= by.keep;
+    covariance(k, k) = covariance(k, k) * by.keep + by.variance;
 }
 
 int TrackState::claim() noexcept {

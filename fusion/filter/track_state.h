@@ -60,6 +60,7 @@ class TrackState {
         std::uint64_t asked = 0;
     };
     int claim() noexcept;
+    void wander(int k, double dt_s) noexcept;
 
     TrackModel model_;
     std::array<Wanderer, max_wanderers> wanderers_{};
