@@ -25,6 +25,7 @@ void NavTrack::start(const Eigen::Vector3d& antenna_site_m, const Eigen::Matrix3
 }
 
 void NavTrack::predict(double dt_s) noexcept {
+    if (dt_s == 0) return;
     since_imu_s_ += dt_s;
     if (mode_ != Mode::kinematic && since_imu_s_ > inertial::HeldImu::max_gap_s) fall_back();
     switch (mode_) {

@@ -29,24 +29,36 @@ void start_axes(Vector& state, Matrix& covariance, const TrackModel& model, cons
     }
 }
 
-/// Of the covariance only the upper triangle of blocks is moved.
+/// F x for the transition F of axis_step(): the numbers below its diagonal are zero and the upper two on it are one.
+/// Written out, it takes half the time of full matrices.
+template <class Numbers>
+void advance(const Eigen::Matrix3d& transition, Numbers&& position, Numbers&& velocity,
+             Numbers&& acceleration) noexcept {
+    position += transition(0, 1) * velocity + transition(0, 2) * acceleration;
+    velocity += transition(1, 2) * acceleration;
+    acceleration *= transition(2, 2);
+}
+
+/// F P F' in the upper half: first P F', three columns at a time, then F from the left, three numbers of a column.
 template <class Vector, class Matrix>
 void move_axes(Vector& state, Matrix& covariance, const TrackModel& model, const AxisStep& step) noexcept {
+    const auto column = [&](int k) { return covariance.col(k).template head<9>(); };
+    for (int i = 0; i < 9; i += 3) {
+        advance(step.transition, state(i), state(i + 1), state(i + 2));
+        advance(step.transition, column(i), column(i + 1), column(i + 2));
+    }
+    for (int k = 0; k < 9; ++k)
+        for (int i = 0; i <= k; i += 3)
+            advance(step.transition, covariance(i, k), covariance(i + 1, k), covariance(i + 2, k));
     const int axes = model.planar ? 2 : 3;
-    for (int i = 0; i < 3; ++i)
-        state.template segment<3>(3 * i) = (step.transition * state.template segment<3>(3 * i)).eval();
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i <= j; ++i)
-            covariance.template block<3, 3>(3 * i, 3 * j) =
-                (step.transition * covariance.template block<3, 3>(3 * i, 3 * j) * step.transition.transpose()).eval();
     for (int i = 0; i < axes; ++i) covariance.template block<3, 3>(3 * i, 3 * i) += step.noise;
 }
 
 /// Covariance of the nine numbers with another one that keeps `keep` of itself.
 template <class Column>
 void move_column(Column&& column, const AxisStep& step, double keep) noexcept {
-    for (int i = 0; i < 3; ++i)
-        column.template segment<3>(3 * i) = (step.transition * column.template segment<3>(3 * i) * keep).eval();
+    column *= keep;
+    for (int i = 0; i < 9; i += 3) advance(step.transition, column(i), column(i + 1), column(i + 2));
 }
 
 } // namespace locus::filter

@@ -19,7 +19,9 @@ struct Prediction {
 template <class Vector, class Matrix>
 Prediction<Vector> predict_scalar(const Matrix& covariance, const Vector& jacobian) {
     Prediction<Vector> prediction;
-    prediction.cross.noalias() = covariance * jacobian;
+    prediction.cross = Vector::Zero(jacobian.size());
+    for (Eigen::Index i = 0; i < jacobian.size(); ++i) // most of an observation's jacobian is zero
+        if (jacobian(i) != 0) prediction.cross += jacobian(i) * covariance.col(i);
     prediction.state_variance = jacobian.dot(prediction.cross);
     return prediction;
 }
@@ -27,12 +29,12 @@ Prediction<Vector> predict_scalar(const Matrix& covariance, const Vector& jacobi
 /// P <- (I - K h')P(I - K h')' + K R K' for any gain K, with c = P h and s = h'Ph.
 template <class Vector, class Matrix>
 void joseph(Matrix& covariance, const Vector& gain, const Prediction<Vector>& prediction, double variance) {
-    const double innovation_variance = prediction.state_variance + variance;
-    // Product by product this is (I - K h')P(I - K h')' + K R K': the bracket is the part of P h that K leaves over.
-    const Vector rest = prediction.cross - innovation_variance * gain;
-    covariance.noalias() -= gain * prediction.cross.transpose();
-    covariance.noalias() -= rest * gain.transpose();
-    covariance.template triangularView<Eigen::StrictlyLower>() = covariance.transpose();
+    // Product by product this is (I - K h')P(I - K h')' + K R K' = P - K u' - u K' with u as here. An entry and its
+    // mirror image are the same two products in another order: what was symmetric to the bit stays so.
+    const Vector rest = prediction.cross - 0.5 * (prediction.state_variance + variance) * gain;
+    for (Eigen::Index j = 0; j < gain.size(); ++j) covariance.col(j) -= rest(j) * gain + gain(j) * rest;
+    for (Eigen::Index j = 0; j < gain.size(); ++j)
+        for (Eigen::Index i = 0; i < j; ++i) covariance(j, i) = covariance(i, j);
 }
 
 /// Takes in `share` of one observation with innovation `innovation` and variance `variance` > 0 (paper 001 eq. 9-11).

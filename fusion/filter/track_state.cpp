@@ -10,6 +10,7 @@ void TrackState::start(const Eigen::Vector3d& position_m, const Eigen::Matrix3d&
 }
 
 void TrackState::predict(double dt_s) noexcept {
+    if (dt_s == 0) return;
     const AxisStep step = axis_step(model_.motion, dt_s);
     move_axes(state, covariance, model_, step);
     wander([&](auto column, double keep) { move_column(column, step, keep); }, dt_s);

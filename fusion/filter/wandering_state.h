@@ -99,7 +99,8 @@ void WanderingState<MaxCore>::wander(const Move& move, double dt_s) noexcept {
         covariance.row(k).tail(size() - k) *= step.keep;
         covariance(k, k) = covariance(k, k) * step.keep + step.variance;
     }
-    covariance.template triangularView<Eigen::StrictlyLower>() = covariance.transpose();
+    for (int k = 0; k < size(); ++k)
+        for (int i = 0; i < k; ++i) covariance(k, i) = covariance(i, k);
 }
 
 template <int MaxCore>

@@ -32,16 +32,20 @@ inline Eigen::Matrix3d adjugate(const Eigen::Matrix3d& m) {
 template <int D, class Points>
 Spread<D> spread_of(const Points& points_m) {
     using Matrix = Eigen::Matrix<double, D, D>;
+    // A column for each coordinate: sums over points then run along memory, two points at a time.
+    Eigen::Matrix<double, Eigen::Dynamic, D, Eigen::ColMajor, Points::MaxColsAtCompileTime, D> places_m =
+        points_m.transpose();
+    const double share = 1 / static_cast<double>(points_m.cols());
     Spread<D> spread;
-    spread.centroid_m = points_m.rowwise().mean();
-    Matrix scatter_m2 = Matrix::Zero();
-    for (Eigen::Index i = 0; i < points_m.cols(); ++i) {
-        const Eigen::Matrix<double, D, 1> from_centroid = points_m.col(i) - spread.centroid_m;
-        scatter_m2 += from_centroid * from_centroid.transpose();
+    for (int i = 0; i < D; ++i) {
+        spread.centroid_m(i) = share * places_m.col(i).sum();
+        places_m.col(i).array() -= spread.centroid_m(i);
     }
-    scatter_m2 /= static_cast<double>(points_m.cols());
+    Matrix scatter_m2;
+    for (int i = 0; i < D; ++i)
+        for (int j = 0; j <= i; ++j) scatter_m2(i, j) = scatter_m2(j, i) = share * places_m.col(i).dot(places_m.col(j));
     const double square_m2 = scatter_m2.trace();
-    const Matrix across = adjugate(Matrix(scatter_m2 / square_m2));
+    const Matrix across = adjugate(Matrix(scatter_m2 * (1 / square_m2)));
     const Matrix sharper = across * across; // once more: the normal stands out by the square
     Eigen::Index largest = 0;
     sharper.diagonal().maxCoeff(&largest);

@@ -36,11 +36,11 @@ Vector<D> second_step(const Vector<D>& first, double sum_of_squares, double sum_
     squares << first.cwiseAbs2(), sum_of_squares;
     inverse_slopes << (2 * away_from_zero<D>(first)).cwiseInverse(), 1 / sum_slope;                       // 1 / 2B
     const Matrix<D + 1> weight = inverse_slopes.asDiagonal() * information * inverse_slopes.asDiagonal(); // 1 / Q'
-    Eigen::Matrix<double, D + 1, D> sums;                                                                 // G'
-    sums << Matrix<D>::Identity(), Eigen::Matrix<double, 1, D>::Ones();
-    const Eigen::Matrix<double, D, D + 1> weighted = sums.transpose() * weight;
-    const Vector<D> result = (weighted * sums).inverse() * (weighted * squares); // eq. 6
-    return result.cwiseMax(0).cwiseSqrt().cwiseProduct(first.cwiseSign());       // eq. 7
+    // G' is the identity above a row of ones: a product with it adds the last row, or column, to the others.
+    const Eigen::Matrix<double, D, D + 1> weighted = weight.template topRows<D>().rowwise() + weight.row(D);
+    const Matrix<D> normal = weighted.template leftCols<D>().colwise() + weighted.col(D);
+    const Vector<D> result = normal.inverse() * (weighted * squares);      // eq. 6
+    return result.cwiseMax(0).cwiseSqrt().cwiseProduct(first.cwiseSign()); // eq. 7
 }
 
 template <int D>

@@ -16,24 +16,33 @@ Vec3 array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 EpochKeeper::EpochKeeper(const Site& site, const EpochSettings& settings)
     : site_(&site), settings_(settings), quantile_in_sigma_(filter::gate_in_sigma(2 * settings.false_alarm)) {}
 
-void EpochKeeper::keep(const Sighting& sighting, Timestamp time) noexcept {
-    const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(size_);
-    const auto same = [&](const Kept& k) {
+/// Where it was kept, or the end of what is kept.
+const EpochKeeper::Kept* EpochKeeper::find(const Sighting& sighting) const noexcept {
+    return std::find_if(kept_.data(), kept_.data() + size_, [&](const Kept& k) {
         return k.sighting.plus == sighting.plus && k.sighting.minus == sighting.minus;
-    };
-    auto place = std::find_if(kept_.begin(), end, same);
-    if (place == end && size_ < kept_.size())
-        ++size_;
-    else if (place == end)
-        place = std::min_element(kept_.begin(), end, [](const Kept& a, const Kept& b) { return a.time < b.time; });
-    *place = {sighting, time};
+    });
 }
 
-EpochKeeper::Chosen EpochKeeper::choose(bool ranges, Timestamp now) const noexcept {
+void EpochKeeper::keep(const Sighting& sighting, Timestamp time) noexcept {
+    auto place = static_cast<std::size_t>(find(sighting) - kept_.data());
+    if (place == size_ && size_ < kept_.size())
+        ++size_;
+    else if (place == size_)
+        place = static_cast<std::size_t>(
+            std::min_element(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.time < b.time; }) -
+            kept_.begin());
+    kept_[place] = {sighting, time};
+}
+
+bool EpochKeeper::heard(const Sighting& sighting, Timestamp since) const noexcept {
+    const Kept* found = find(sighting);
+    return found != kept_.data() + size_ && found->time >= since;
+}
+
+EpochKeeper::Chosen EpochKeeper::choose(bool ranges, Timestamp since) const noexcept {
     Chosen chosen;
     for (std::size_t i = 0; i < size_; ++i)
-        if (kept_[i].sighting.is_range() == ranges && to_s(now - kept_[i].time) <= settings_.window_s)
-            chosen.kept[chosen.size++] = kept_[i];
+        if (kept_[i].sighting.is_range() == ranges && kept_[i].time >= since) chosen.kept[chosen.size++] = kept_[i];
     return chosen;
 }
 
@@ -68,9 +77,9 @@ bool EpochKeeper::agrees(const Fix& fix) const noexcept {
     return std::cbrt(fix.cost / fix.degrees_of_freedom) <= 1 - spread + quantile_in_sigma_ * std::sqrt(spread);
 }
 
-EpochKeeper::Answer EpochKeeper::solve_kind(bool ranges, Timestamp now,
+EpochKeeper::Answer EpochKeeper::solve_kind(bool ranges, Timestamp since, Timestamp now,
                                             const Eigen::Vector3d& other_site_m) const noexcept {
-    Chosen chosen = choose(ranges, now);
+    Chosen chosen = choose(ranges, since);
     Answer answer{solve_once(chosen, ranges, now)};
     for (std::size_t spare = chosen.size / 4; spare > 0; --spare) {
         if (answer.fix.reason != Exclusion::none || agrees(answer.fix)) break;
@@ -92,9 +101,14 @@ EpochKeeper::Answer EpochKeeper::solve_kind(bool ranges, Timestamp now,
 }
 
 EpochKeeper::Answer EpochKeeper::solve(Timestamp now, const Eigen::Vector3d& other_site_m) const noexcept {
-    const Answer ranges = solve_kind(true, now, other_site_m);
+    return solve_since(now - duration_from_s(settings_.window_s), now, other_site_m);
+}
+
+EpochKeeper::Answer EpochKeeper::solve_since(Timestamp since, Timestamp now,
+                                             const Eigen::Vector3d& other_site_m) const noexcept {
+    const Answer ranges = solve_kind(true, since, now, other_site_m);
     if (ranges.fix.reason == Exclusion::none) return ranges;
-    const Answer differences = solve_kind(false, now, other_site_m);
+    const Answer differences = solve_kind(false, since, now, other_site_m);
     return differences.fix.reason == Exclusion::geometry_too_few ? ranges : differences;
 }
 

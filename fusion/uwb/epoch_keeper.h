@@ -36,6 +36,11 @@ class EpochKeeper {
         double cost_of_other = 0; ///< of the position asked about, summed over the sightings that agree
     };
     Answer solve(Timestamp now, const Eigen::Vector3d& other_site_m) const noexcept;
+    /// The same from what was heard at `since` or later.
+    Answer solve_since(Timestamp since, Timestamp now, const Eigen::Vector3d& other_site_m) const noexcept;
+
+    /// Whether the anchor, or the pair, of this sighting was heard at `since` or later.
+    bool heard(const Sighting& sighting, Timestamp since) const noexcept;
 
   private:
     struct Kept {
@@ -46,11 +51,12 @@ class EpochKeeper {
         std::array<Kept, max_observations> kept;
         std::size_t size = 0;
     };
-    Chosen choose(bool ranges, Timestamp now) const noexcept;
+    const Kept* find(const Sighting& sighting) const noexcept;
+    Chosen choose(bool ranges, Timestamp since) const noexcept;
     double sigma_m(const Kept& kept, Timestamp now) const noexcept;
     double residual_in_sigma(const Kept& kept, const Eigen::Vector3d& position, Timestamp now) const noexcept;
     Fix solve_once(const Chosen& chosen, bool ranges, Timestamp now) const noexcept;
-    Answer solve_kind(bool ranges, Timestamp now, const Eigen::Vector3d& other_site_m) const noexcept;
+    Answer solve_kind(bool ranges, Timestamp since, Timestamp now, const Eigen::Vector3d& other_site_m) const noexcept;
     bool agrees(const Fix& fix) const noexcept;
 
     const Site* site_;

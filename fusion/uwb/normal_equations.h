@@ -14,31 +14,26 @@ class NormalEquations {
     using Equation = Eigen::Matrix<double, N + 1, 1>;
 
     /// The N coefficients of an equation and, last, its residual: all divided by its standard deviation.
-    void add(const Equation& row) { add_scaled(row, 1); }
+    void add(const Equation& row) {
+        for (int column = 0; column <= N; ++column) squares_.col(column) += row(column) * row;
+    }
 
     /// Turns independent noise into noise with one correlation c between any two of the `count` rows, whose sum is
     /// given: R = (1 - c) I + c 11', so R^-1 = (I - c / (1 - c + count c) 11') / (1 - c)   (Sherman-Morrison).
     void correlate(double correlation, double count, const Equation& sum) {
-        add_scaled(sum, -correlation / (1 - correlation + count * correlation));
+        squares_.noalias() -= correlation / (1 - correlation + count * correlation) * sum * sum.transpose();
         squares_ /= 1 - correlation;
     }
 
     /// H' R^-1 H
-    Eigen::Matrix<double, N, N> information() const {
-        return squares_.template topLeftCorner<N, N>().template selfadjointView<Eigen::Upper>();
-    }
+    Eigen::Matrix<double, N, N> information() const { return squares_.template topLeftCorner<N, N>(); }
     /// H' R^-1 residual
     Eigen::Matrix<double, N, 1> projection() const { return squares_.template topRightCorner<N, 1>(); }
     /// residual' R^-1 residual
     double cost() const { return squares_(N, N); }
 
   private:
-    void add_scaled(const Equation& row, double scale) {
-        for (int column = 0; column <= N; ++column)
-            for (int i = 0; i <= column; ++i) squares_(i, column) += scale * row(i) * row(column);
-    }
-
-    /// Of rows, so the residuals' products are in the last column. Upper half only.
+    /// Of rows, so the residuals' products are in the last column.
     Eigen::Matrix<double, N + 1, N + 1> squares_ = Eigen::Matrix<double, N + 1, N + 1>::Zero();
 };
 

@@ -72,6 +72,16 @@ class Search {
     bool disagree_ = false;
 };
 
+/// Whether no other place can be meant than the first minimum: it explains every observation as well as chance allows
+/// (cost within two standard deviations of what noise alone gives), there are as many to spare as unknowns, which
+/// a wrong place would have to fit by chance, and no reflection in the anchors' plane comes near to fitting.
+template <int D>
+bool is_beyond_doubt(const Epoch& epoch, const Spread<D>& spread, double cost) {
+    const int spare = static_cast<int>(epoch.rows.size()) - D;
+    return spare >= D && cost <= spare + 2 * std::sqrt(2.0 * spare) &&
+           spread.thickness_m >= thin_share * spread.extent_m;
+}
+
 /// The anchors' centroid; off their plane where they are so flat that the centroid itself has no slope to follow.
 template <int D>
 Eigen::Vector3d middle(const Spread<D>& spread) {
@@ -115,7 +125,7 @@ Fix solve(const Epoch& epoch, const SolveSettings& settings, int fewest_anchors,
     if (const Exclusion reason = reason_against<D>(spread); reason != Exclusion::none) return {reason};
     Search<D> search(epoch, spread);
     for (const Eigen::Vector3d& point : closed_form(epoch)) search.start_from(point);
-    search.start_from(middle<D>(spread));
+    if (!search.any() || !is_beyond_doubt<D>(epoch, spread, search.best().cost)) search.start_from(middle<D>(spread));
     search.start_from_mirror();
     return search.any() ? fix_at<D>(epoch, search, settings.max_pdop) : Fix{Exclusion::geometry_degenerate};
 }

@@ -23,10 +23,6 @@ struct Minimum {
     }
 };
 
-/// The rows linearised at a position, eq. 9-10.
-template <int D>
-NormalEquations<D> linearise(const Epoch& epoch, const Eigen::Vector3d& position_m);
-
 /// Descends from `start_m`. Where a minimum is `known` already, ends as soon as it is clear that it leads there.
 template <int D>
 Minimum<D> refine(const Epoch& epoch, const Eigen::Vector3d& start_m, const Minimum<D>* known = nullptr);

@@ -60,7 +60,8 @@ std::uint64_t allocations_of_a_run(EngineSettings settings) {
 }
 
 TEST(Engine, AllocatesNothingAfterConstruction) {
-    for (const char* estimator : {"follower", "range_ekf", "inertial_ekf"}) {
+    for (const char* estimator :
+         {"follower", "range_ekf", "inertial_ekf", "chan_taylor", "kalman", "coloured_kalman", "pca_kalman"}) {
         auto settings = follower_settings();
         settings.fusion.estimator = estimator;
         settings.fusion.max_targets = 12;

@@ -28,11 +28,11 @@ class SimulatedTag {
   public:
     SimulatedTag(const Site& site, const RangeEkfSettings& settings, unsigned seed)
         : site_(site), settings_(settings), random_(seed), anchor_error_m_(site.anchors.size()) {
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < axes(); ++axis) {
             motion_(1, axis) = settings.speed_sigma_mps * normal_(random_);
             motion_(2, axis) = settings.acceleration_sigma_mps2 * normal_(random_);
         }
-        motion_.row(0) << 0.5, -0.5, 1.5;
+        motion_.row(0) << 0.5, -0.5, settings.planar ? settings.height_m : 1.5;
         for (double& error_m : anchor_error_m_) error_m = settings.anchor_error_sigma_m * normal_(random_);
         common_m_ = settings.common_range_error_sigma_m * normal_(random_);
     }
@@ -40,7 +40,7 @@ class SimulatedTag {
     void move(double dt_s) {
         const auto step = filter::axis_step({settings_.acceleration_sigma_mps2, settings_.acceleration_time_s}, dt_s);
         const Eigen::Matrix3d root = step.noise.llt().matrixL();
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < axes(); ++axis)
             motion_.col(axis) = (step.transition * motion_.col(axis) +
                                  root * Eigen::Vector3d::NullaryExpr([&] {
                                      return draw();
@@ -65,6 +65,7 @@ class SimulatedTag {
     double time_s() const { return time_s_; }
 
   private:
+    int axes() const { return settings_.planar ? 2 : 3; }
     double draw() { return normal_(random_); }
     double heard_m(std::size_t anchor) const {
         const Eigen::Vector3d anchor_site_m = vector(site_.anchors[anchor].position_site_m);
@@ -76,7 +77,7 @@ class SimulatedTag {
     RangeEkfSettings settings_;
     std::mt19937 random_;
     std::normal_distribution<double> normal_;
-    Eigen::Matrix3d motion_;
+    Eigen::Matrix3d motion_ = Eigen::Matrix3d::Zero();
     std::vector<double> anchor_error_m_;
     double common_m_ = 0;
     double time_s_ = 1;

@@ -1,0 +1,41 @@
+// Errors in the plane of estimators that hear the same walk.
+#pragma once
+
+#include "fusion/estimators/estimator.h"
+#include "tests/papers/walk.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace locus::papers {
+
+struct Score {
+    double squares_m2 = 0, sum_m = 0;
+    int poses = 0, none = 0; ///< none: moments without a pose
+
+    void add(const Estimate& estimate, const Eigen::Vector3d& truth_m) {
+        if (estimate.missing != Missing::nothing) {
+            ++none;
+            return;
+        }
+        const double error_m = (vector(estimate.position_site_m) - truth_m).head<2>().norm();
+        squares_m2 += error_m * error_m;
+        sum_m += error_m;
+        ++poses;
+    }
+    double mse_m2() const { return squares_m2 / poses; }
+    double rmse_m() const { return std::sqrt(mse_m2()); }
+    double mean_m() const { return sum_m / poses; }
+};
+
+/// An estimator by its row, its settings changed by hand where the table of options has no say in the experiment.
+template <class Settings>
+std::unique_ptr<Estimator> planar(const char* name, const Site& site, Settings settings) {
+    settings.planar = true;
+    settings.height_m = tag_height_m;
+    return find_estimator(name)->make(site, &settings);
+}
+
+} // namespace locus::papers
