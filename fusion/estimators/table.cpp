@@ -1,12 +1,13 @@
 // The estimators that a configuration can name.
 #include "fusion/estimators/range_ekf.h"
+#include "fusion/estimators/walker_particles.h"
 
 #include <algorithm>
 #include <array>
 
 namespace locus {
 namespace {
-constexpr std::array rows{range_ekf_row};
+constexpr std::array rows{range_ekf_row, walker_particles_row};
 }
 
 std::span<const EstimatorRow> estimator_table() { return rows; }
