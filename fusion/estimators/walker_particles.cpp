@@ -1,5 +1,6 @@
 #include "fusion/estimators/walker_particles.h"
 
+#include "fusion/geometry/turn_and_stretch.h"
 #include "fusion/geometry/vector.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace locus {
 namespace {
 
-constexpr double used_memory_s = 1, heard_memory_s = 1;
+constexpr double heard_memory_s = 1;
 /// The cloud moves at least this often, so that what lies ahead of it is a step at most.
 constexpr double longest_outlook_s = 0.5;
 constexpr std::size_t range_kind = 0, difference_kind = 1, imu_kind = 5;
@@ -57,17 +58,6 @@ Eigen::Vector2d middle_of(const Site& site) {
     return site.anchors.empty() ? sum : Eigen::Vector2d(sum / static_cast<double>(site.anchors.size()));
 }
 
-/// Complex numbers as vectors.
-Eigen::Vector2d product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()};
-}
-Eigen::Vector2d quotient(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return product(a, {b.x(), -b.y()}) / b.squaredNorm();
-}
-Eigen::Matrix2d product_matrix(const Eigen::Vector2d& a) {
-    return (Eigen::Matrix2d() << a.x(), -a.y(), a.y(), a.x()).finished();
-}
-
 } // namespace
 
 WalkerParticles::WalkerParticles(const Site& site, const WalkerParticlesSettings& settings)
@@ -87,6 +77,7 @@ void WalkerParticles::copy_from(const Estimator& other) noexcept {
 
 Verdict WalkerParticles::update(const Measurement& measurement) noexcept {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return hear(*imu, measurement.time);
+    if (const auto* peer = std::get_if<PeerRange>(&measurement.observation)) return hear(*peer, measurement.time);
     const RangeReader::Reading reading = reader_.read(measurement);
     if (reading.reason != Exclusion::none) return {reading.reason};
     return take(reading.sighting, measurement.time);
@@ -106,8 +97,7 @@ Verdict WalkerParticles::take(const uwb::Sighting& sighting, Timestamp time) noe
     if (state_.missing != Missing::nothing) return start(time);
     advance(time);
     const Verdict verdict = weigh(sighting, time);
-    if (verdict.reason == Exclusion::none)
-        state_.kind_used[sighting.is_range() ? range_kind : difference_kind] = time;
+    if (verdict.reason == Exclusion::none) state_.kind_used[sighting.is_range() ? range_kind : difference_kind] = time;
     start_again_if_lost(time);
     return verdict;
 }
@@ -153,16 +143,6 @@ void WalkerParticles::advance(Timestamp time) noexcept {
     state_.time = time;
 }
 
-/// White acceleration, seen as a velocity that changes by half at the beginning and half at the end.
-filter::ParticleMove WalkerParticles::wander(double dt_s) const noexcept {
-    filter::ParticleMove move;
-    const double speed_sigma = settings_.velocity_wander_mps_rts * std::sqrt(dt_s);
-    move.move = {dt_s, 0};
-    move.drive_sigma = speed_sigma;
-    move.place_sigma_m = speed_sigma * dt_s / std::sqrt(12.0);
-    return move;
-}
-
 void WalkerParticles::stop_at_walls(double move_m) noexcept {
     if (site_->walls.empty()) return;
     const Eigen::Vector2d reach_m =
@@ -200,66 +180,6 @@ void WalkerParticles::lead_by_velocity() noexcept {
     state_.by_steps = false;
 }
 
-WalkerParticles::Expected WalkerParticles::expect(const uwb::Sighting& sighting) const noexcept {
-    const Eigen::Vector3d place = place_site_m();
-    const Eigen::Vector3d gradient = uwb::gradient(sighting, *site_, place);
-    return {sighting.value_m - uwb::predicted_m(sighting, *site_, place), gradient.head<2>(), gradient.z()};
-}
-
-/// Of the measurement against a place. An anchor heard faster than its error changes says the same again.
-double WalkerParticles::variance_m2(const uwb::Sighting& sighting, double climb, Timestamp time) noexcept {
-    auto& heard = state_.heard[static_cast<std::size_t>(sighting.plus)];
-    const double since_s = heard ? std::max(1e-3, to_s(time - *heard)) : settings_.anchor_error_time_s;
-    heard = time;
-    const double held = settings_.anchor_error_sigma_m * settings_.anchor_error_sigma_m * (sighting.is_range() ? 1 : 2);
-    const double repeated = std::max(1.0, settings_.anchor_error_time_s / since_s);
-    const double by_height = climb * settings_.height_sigma_m;
-    return double{sighting.sigma_m} * double{sighting.sigma_m} + held * repeated + by_height * by_height;
-}
-
-Verdict WalkerParticles::judge(double innovation_m, double innovation_variance_m2) const noexcept {
-    Verdict verdict;
-    const double sigma_m = std::sqrt(innovation_variance_m2);
-    verdict.innovation = static_cast<float>(innovation_m);
-    verdict.innovation_sigma = static_cast<float>(sigma_m);
-    verdict.test_ratio = static_cast<float>(std::abs(innovation_m) / (sigma_m * gate_in_sigma_));
-    return verdict;
-}
-
-filter::ParticleNoise WalkerParticles::noise(double variance_m2) const noexcept {
-    filter::ParticleNoise noise;
-    noise.sigma_m = std::sqrt(variance_m2);
-    noise.outlier_share = settings_.blocked_share;
-    noise.long_tail_m = noise.short_tail_m = settings_.blocked_excess_m + noise.sigma_m;
-    return noise;
-}
-
-Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) noexcept {
-    const Expected expected = expect(sighting);
-    const double variance = variance_m2(sighting, expected.climb, time);
-    const double spread = expected.gradient.dot(cloud_.covariance().topLeftCorner<2, 2>() * expected.gradient);
-    Verdict verdict = judge(expected.innovation_m, spread + variance);
-    auto& gate = state_.gates[static_cast<std::size_t>(sighting.plus)];
-    const double in_sigma = expected.innovation_m / std::sqrt(spread + variance);
-    if (!gate.passes(in_sigma, gate_in_sigma_, static_cast<std::uint32_t>(settings_.gate_patience))) {
-        verdict.reason = Exclusion::innovation_too_large;
-        verdict.weight = 0;
-        return verdict;
-    }
-    filter::ParticleNoise noise = this->noise(variance);
-    const Vec3& plus = site_->anchors[static_cast<std::size_t>(sighting.plus)].position_site_m;
-    if (sighting.is_range()) {
-        noise.short_tail_m = noise.sigma_m; // nothing makes a path much shorter
-        cloud_.weigh_range(local(plus), plus[2] - settings_.height_m, sighting.value_m, noise);
-    } else {
-        const Vec3& minus = site_->anchors[static_cast<std::size_t>(sighting.minus)].position_site_m;
-        cloud_.weigh_difference(local(minus), minus[2] - settings_.height_m, local(plus), plus[2] - settings_.height_m,
-                                sighting.value_m, noise);
-    }
-    if (!settle()) verdict.reason = Exclusion::innovation_too_large;
-    return verdict;
-}
-
 bool WalkerParticles::settle() noexcept {
     const bool alive = cloud_.settle();
     cloud_.resample_if_poor();
@@ -276,8 +196,8 @@ bool WalkerParticles::most_refuse(Timestamp time) const noexcept {
     return 2 * refused > heard;
 }
 
-/// Most anchors refused may mean a bad site or a cloud in the wrong place: it moves only when the last window agrees on a
-/// place and fits there far better than here.
+/// Most anchors refused may mean a bad site or a cloud in the wrong place: it moves only when the last window agrees on
+/// a place and fits there far better than here.
 void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
     if (!most_refuse(time)) {
         state_.doubtful_since.reset();
@@ -288,51 +208,6 @@ void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
     const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
     if (answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_)
         start_at(answer.fix, time);
-}
-
-Eigen::Vector3d WalkerParticles::place_site_m() const noexcept {
-    const Eigen::Vector2d place = cloud_.mean().head<2>() + origin_;
-    return {place.x(), place.y(), settings_.height_m};
-}
-
-Estimate WalkerParticles::predict(Timestamp time) const noexcept {
-    Estimate estimate;
-    estimate.time = time;
-    estimate.reset_count = state_.reset_count;
-    estimate.missing = state_.missing;
-    for (std::size_t kind = 0; kind < state_.kind_used.size(); ++kind)
-        if (const auto& used = state_.kind_used[kind]; used && to_s(time - *used) <= used_memory_s)
-            estimate.kinds_used |= 1u << kind;
-    if (state_.missing != Missing::nothing) return estimate;
-
-    const double dt_s = std::max(0.0, to_s(time - state_.time));
-    const filter::ParticleMove wandering = wander(dt_s);
-    const Eigen::Vector2d ahead = state_.by_steps ? state_.gait.outlook(time) : wandering.move;
-    const Eigen::Vector2d pace = state_.by_steps ? state_.gait.speed_mps() : Eigen::Vector2d(1, 0);
-    // Within a step the body is now faster, now slower: by half of the difference that makes a step.
-    constexpr double within_step_mps = 0.2;
-    const double place_variance = state_.by_steps ? state_.gait.place_variance_m2()
-                                                  : wandering.drive_sigma * wandering.drive_sigma * dt_s * dt_s / 3;
-    const double speed_sigma = state_.by_steps ? within_step_mps : wandering.drive_sigma;
-
-    Eigen::Matrix4d by_state = Eigen::Matrix4d::Identity();
-    by_state.topRightCorner<2, 2>() = product_matrix(ahead);
-    by_state.bottomRightCorner<2, 2>() = product_matrix(pace);
-    Eigen::Matrix4d covariance = by_state * cloud_.covariance() * by_state.transpose();
-    covariance.diagonal().head<2>().array() += place_variance;
-    covariance.diagonal().tail<2>().array() += speed_sigma * speed_sigma;
-    const Eigen::Vector2d drive = cloud_.mean().tail<2>();
-    const Eigen::Vector2d place = cloud_.mean().head<2>() + origin_ + product(ahead, drive);
-    const Eigen::Vector2d velocity = product(pace, drive);
-    estimate.position_site_m = {place.x(), place.y(), settings_.height_m};
-    estimate.velocity_site_mps = {velocity.x(), velocity.y(), 0};
-    constexpr int at[4]{0, 1, 3, 4};
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            estimate.covariance[static_cast<std::size_t>(6 * at[row] + at[column])] = covariance(row, column);
-    estimate.covariance[14] = settings_.height_sigma_m * settings_.height_sigma_m;
-    estimate.covariance[35] = 0.01; // a hip rises and falls by some centimetres, twice a second
-    return estimate;
 }
 
 std::unique_ptr<Estimator> make_walker_particles(const Site& site, const void* settings) {

@@ -45,14 +45,16 @@ class WalkerParticles final : public Estimator {
         std::array<std::optional<Timestamp>, 6> kind_used{};
         Gait gait;
         uwb::EpochKeeper epoch;
-        bool by_steps = false; ///< drives are turn and stretch of steps; else velocities
-        Timestamp time{};      ///< of the cloud
+        bool by_steps = false;                     ///< drives are turn and stretch of steps; else velocities
+        Timestamp time{};                          ///< of the cloud
         std::optional<Timestamp> doubtful_since{}; ///< most anchors have been refused since
         std::uint32_t reset_count = 0;
         Missing missing = Missing::measurements;
     };
 
     Verdict hear(const ImuSample& sample, Timestamp time) noexcept;
+    Verdict hear(const PeerRange& range, Timestamp time) noexcept;
+    Eigen::Vector2d pace() const noexcept;
     Verdict take(const uwb::Sighting& sighting, Timestamp time) noexcept;
     Verdict start(Timestamp time) noexcept;
     void start_at(const uwb::Fix& fix, Timestamp time) noexcept;

@@ -6,7 +6,8 @@
 // 4).
 // - change of velocity 1 m/s in a second without an inertial unit: a walker who turns round within two seconds.
 // - step noise, person's factor: inertial/step_length.h. Person's and device's heading part slowly: a pocket shifts.
-// - at least 1,000 particles: within 1.05 of the posterior bound in position, and the heading is learnt well: after 20 s of
+// - at least 1,000 particles: within 1.05 of the posterior bound in position, and the heading is learnt well: after 20
+// s of
 //   steps alone simulated walkers were out by 0.6 m with 4,000, 1.0 m with 1,000, 1.4 m with 500 and 1.9 m with 250.
 // - Fox 2003: 0.05 with 99 %, as in the paper; resampling at half the count: the customary value (Arulampalam et al.
 // 2002).
