@@ -11,6 +11,8 @@ namespace locus {
 namespace {
 
 constexpr double heard_memory_s = 1;
+/// Blocked paths make a fix that is wrong by about their excess; only what is this many times farther off is elsewhere.
+constexpr double elsewhere = 3;
 /// The cloud moves at least this often, so that what lies ahead of it is a step at most.
 constexpr double longest_outlook_s = 0.5;
 constexpr std::size_t range_kind = 0, difference_kind = 1, imu_kind = 5;
@@ -118,13 +120,16 @@ void WalkerParticles::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
     if (state_.missing == Missing::nothing) ++state_.reset_count;
     const double speed_variance = settings_.speed_sigma_mps * settings_.speed_sigma_mps;
     filter::Particles::Vector4 mean = filter::Particles::Vector4::Zero();
-    mean.head<2>() = local(fix.position_site_m);
     filter::Particles::Matrix4 covariance = filter::Particles::Matrix4::Identity() * speed_variance;
+    if (state_.by_steps) { // a wrong place says nothing against the heading
+        mean.tail<2>() = cloud_.mean().tail<2>();
+        covariance.bottomRightCorner<2, 2>() = cloud_.covariance().bottomRightCorner<2, 2>();
+    }
+    mean.head<2>() = local(fix.position_site_m);
     covariance.topLeftCorner<2, 2>() = Eigen::Matrix3d(fix.covariance_m2.data()).topLeftCorner<2, 2>();
     cloud_.start(mean, covariance);
     cloud_.settle();
     state_.gait.take();
-    state_.by_steps = false;
     state_.time = time;
     state_.doubtful_since.reset();
     state_.missing = Missing::nothing;
@@ -206,8 +211,9 @@ void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
     if (!state_.doubtful_since) state_.doubtful_since = time;
     if (to_s(time - *state_.doubtful_since) < settings_.lost_after_s) return;
     const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
-    if (answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_)
-        start_at(answer.fix, time);
+    const double away_m = (local(answer.fix.position_site_m) - cloud_.mean().head<2>()).norm();
+    const bool better = answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_;
+    if (better && away_m > elsewhere * settings_.blocked_excess_m) start_at(answer.fix, time);
 }
 
 std::unique_ptr<Estimator> make_walker_particles(const Site& site, const void* settings) {
