@@ -1,5 +1,7 @@
 // Length of a step from how hard the body bounces: a leg is an inverted pendulum, so the longer the step the higher the
 // hip rises and falls (Weinberg 2002, Analog Devices AN-602): length = K (a_max - a_min)^(1/4).
+// How much longer one person's steps are than a mean person's is for the filter behind to learn, which sees both steps
+// and places.
 #pragma once
 
 namespace locus::inertial {
@@ -16,21 +18,5 @@ inline constexpr double longest_step_m = 2.5;
 
 /// Length that a mean person's step has, m. Zero where nothing bounced.
 double step_length_m(const StepLengthSettings& settings, double amplitude_mps2) noexcept;
-
-/// A person's own factor, relative to the mean person's, learnt from distances that something else measured.
-class StepFactor {
-  public:
-    explicit StepFactor(const StepLengthSettings& settings) noexcept;
-
-    /// Steps that add up to `walked_m` by step_length_m() covered `measured_m` (standard deviation `sigma_m` > 0).
-    void learn(double walked_m, double measured_m, double sigma_m) noexcept;
-
-    double value() const noexcept { return value_; }
-    double variance() const noexcept { return variance_; }
-
-  private:
-    double value_ = 1;
-    double variance_;
-};
 
 } // namespace locus::inertial

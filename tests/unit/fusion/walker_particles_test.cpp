@@ -155,8 +155,8 @@ struct Hall {
 };
 
 /// Twenty seconds without a range are 26 m of steps. The heading that a minute of ranges taught drifts by
-/// course_wander_rad_rts, 0.13 rad in that time, which is 2 m at the end of the way; without steps it is 26 m. The unit was
-/// switched on by someone who stood, which showed the gyroscope's bias.
+/// course_wander_rad_rts, 0.13 rad in that time, which is 2 m at the end of the way; without steps it is 26 m. The unit
+/// was switched on by someone who stood, which showed the gyroscope's bias.
 TEST(WalkerParticles, StepsCarryAPersonThroughASilence) {
     double squares = 0;
     int within = 0;

@@ -117,16 +117,6 @@ TEST(Pedestrian, AGapMakesTheHeadingUncertain) {
     EXPECT_FALSE(pedestrian.hear(sample, walker.time())) << "time went back";
 }
 
-/// With the mean step length 1.3 / 1.8 m known, a person's own factor is found from displacements of 10 cm.
-TEST(StepFactor, IsLearntFromDisplacements) {
-    std::mt19937 random(7);
-    std::normal_distribution<double> normal;
-    StepFactor factor{StepLengthSettings{}};
-    for (int i = 0; i < 20; ++i) factor.learn(5, 5 * 0.8 + 0.1 * normal(random), 0.1);
-    EXPECT_NEAR(factor.value(), 0.8, 4 * std::sqrt(factor.variance()));
-    EXPECT_LT(std::sqrt(factor.variance()), 0.01);
-}
-
 TEST(StepLength, GrowsAsTheFourthRootAndHasABound) {
     const StepLengthSettings settings;
     EXPECT_DOUBLE_EQ(step_length_m(settings, 16), 2 * settings.factor);
