@@ -57,15 +57,18 @@ std::string reference_table(const ShownOptions& options) {
 namespace {
 
 std::string list_sections() {
-    return fmt::format("\n## site\n{}\n### site.anchors\n\nA list; each item:\n{}\n### site.origin\n\nOnly for sites "
-                       "that have a place on the Earth (GNSS).\n{}\n## targets\n\nA list of the tags that have a name "
-                       "or an estimator of their own; each item:\n{}\n## inputs\n\nA list. Each item has the settings "
-                       "below, and beside them, in the same map, those of its transport and of its decoder:\n{}",
-                       reference_table({site_options, std::make_unique<Site>().get()}),
-                       reference_table({anchor_options, std::make_unique<Anchor>().get()}),
-                       reference_table({origin_options, std::make_unique<Wgs84Anchor>().get()}),
-                       reference_table({target_options, std::make_unique<TargetSettings>().get()}),
-                       reference_table({input_options, std::make_unique<InputSettings>().get()}));
+    return fmt::format(
+        "\n## site\n{}\n### site.anchors\n\nA list; each item:\n{}\n### site.walls\n\nA list, for "
+        "estimators that know that nobody walks through a wall; each item:\n{}\n### site.origin\n\nOnly for sites that"
+        " have a place on the Earth (GNSS).\n{}\n## targets\n\nA list of the tags that have a name "
+        "or an estimator of their own; each item:\n{}\n## inputs\n\nA list. Each item has the settings "
+        "below, and beside them, in the same map, those of its transport and of its decoder:\n{}",
+        reference_table({site_options, std::make_unique<Site>().get()}),
+        reference_table({anchor_options, std::make_unique<Anchor>().get()}),
+        reference_table({wall_options, std::make_unique<Wall>().get()}),
+        reference_table({origin_options, std::make_unique<Wgs84Anchor>().get()}),
+        reference_table({target_options, std::make_unique<TargetSettings>().get()}),
+        reference_table({input_options, std::make_unique<InputSettings>().get()}));
 }
 
 /// A list's item has no struct of its own to show defaults of, so one is appended to the module's.

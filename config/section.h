@@ -34,6 +34,7 @@ struct FlatSection {
 std::span<const FlatSection> flat_sections();
 
 inline constexpr std::size_t max_anchors = 1024;
+inline constexpr std::size_t max_walls = 4096;
 inline constexpr std::size_t max_listed_targets = 4096;
 inline constexpr std::size_t max_inputs = 64;
 

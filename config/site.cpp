@@ -1,4 +1,4 @@
-// Section "site": anchors, and where the site lies on the Earth.
+// Section "site": anchors, walls, and where the site lies on the Earth.
 #include "config/address.h"
 #include "config/print_options.h"
 #include "config/section.h"
@@ -19,6 +19,13 @@ void read_anchors(const YamlNode& list, std::vector<Anchor>& anchors, Problems& 
     }
 }
 
+void read_walls(const YamlNode& list, std::vector<Wall>& walls, Problems& problems) {
+    for (const auto& item : list_items(list, max_walls, problems)) {
+        const BoundOptions table[]{{wall_options, &walls.emplace_back()}};
+        read_map(item, {"wall"}, table, problems);
+    }
+}
+
 void read_origin(const YamlNode& map, std::optional<Wgs84Anchor>& origin, Problems& problems) {
     if (map.kind == YamlNode::Kind::nothing) return;
     const BoundOptions table[]{{origin_options, &origin.emplace()}};
@@ -28,10 +35,11 @@ void read_origin(const YamlNode& map, std::optional<Wgs84Anchor>& origin, Proble
 } // namespace
 
 void read_site(const YamlNode& node, Site& site, Problems& problems) {
-    static constexpr std::string_view other_keys[]{"anchors", "origin"};
+    static constexpr std::string_view other_keys[]{"anchors", "walls", "origin"};
     const BoundOptions table[]{{site_options, &site}};
     if (!read_map(node, {"site", other_keys}, table, problems)) return;
     if (const YamlNode* anchors = node.find("anchors")) read_anchors(*anchors, site.anchors, problems);
+    if (const YamlNode* walls = node.find("walls")) read_walls(*walls, site.walls, problems);
     if (const YamlNode* origin = node.find("origin")) read_origin(*origin, site.origin, problems);
 }
 
@@ -41,6 +49,8 @@ std::string print_site(const Site& site) {
     if (site.origin) text += "  origin: " + print_flow({origin_options, &*site.origin}) + "\n";
     text += site.anchors.empty() ? "  anchors: []\n" : "  anchors:\n";
     for (const auto& anchor : site.anchors) text += "    - " + print_flow({anchor_options, &anchor}) + "\n";
+    if (!site.walls.empty()) text += "  walls:\n";
+    for (const auto& wall : site.walls) text += "    - " + print_flow({wall_options, &wall}) + "\n";
     return text;
 }
 

@@ -32,6 +32,8 @@ enum class Exclusion : std::uint8_t {
     impossible_difference,
     reported_blocked,
     disabled,
+    peer_without_position,
+    no_news,
     count_
 };
 
@@ -64,6 +66,8 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"impossible_difference", "heard earlier or later than the distance between the anchors allows"},
     {"reported_blocked", "the device itself reports a blocked path"},
     {"disabled", "switched off in the settings"},
+    {"peer_without_position", "the tag at the other end has no position itself"},
+    {"no_news", "what the tag at the other end knows would not make this one surer"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {

@@ -39,6 +39,15 @@ void keep_finite(Estimate& estimate) {
     if (!finite) estimate.missing = Missing::agreement;
 }
 
+PeerBelief belief(const Estimate& estimate) {
+    PeerBelief belief;
+    belief.position_site_m = estimate.position_site_m;
+    constexpr std::array<std::size_t, 6> upper{0, 1, 2, 7, 8, 14};
+    for (std::size_t i = 0; i < upper.size(); ++i)
+        belief.covariance_m2[i] = static_cast<float>(estimate.covariance[upper[i]]);
+    return belief;
+}
+
 void fill(Pose& pose, const Estimate& estimate) {
     pose.estimate = estimate;
     if (estimate.missing == Missing::nothing) keep_finite(pose.estimate);
@@ -62,6 +71,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     void deliver(const Measurement& measurement, Delivery delivery, Timestamp arrival) noexcept;
     Exclusion first_look(const Measurement& measurement, Timestamp arrival) const noexcept;
     Verdict hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record) noexcept;
+    Measurement with_peer(const Measurement& measurement, const Delivery& delivery) const noexcept;
     Exclusion hand_to_target(const Measurement& measurement, const Delivery& delivery,
                              const AidBook::Record& record) noexcept;
     void take(const Measurement& difference, const AidBook::Record& record) noexcept override;
@@ -109,7 +119,23 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     if (!delivery.tag) return Exclusion::unsupported_kind;
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
-    return targets.timeline(slot).insert(measurement, key_of(measurement, delivery), record);
+    return targets.timeline(slot).insert(with_peer(measurement, delivery), key_of(measurement, delivery), record);
+}
+
+/// A range between two tags goes into the timeline with what the other one knew of itself when it came. It stays in the
+/// entry, so a roll-back hears the same again; and it is of the last step, so that what one target hears in a tick does
+/// not hang on which other target was run first.
+Measurement Engine::Impl::with_peer(const Measurement& measurement, const Delivery& delivery) const noexcept {
+    Measurement told = measurement;
+    auto* range = std::get_if<PeerRange>(&told.observation);
+    if (range == nullptr) return told;
+    range->other = {};
+    const auto slot = targets.find(delivery.sources[0]);
+    if (slot == TargetTable::none) return told;
+    Estimate other = targets.timeline(slot).predict(std::max(measurement.time, last_tick));
+    keep_finite(other);
+    if (other.missing == Missing::nothing) range->other = belief(other);
+    return told;
 }
 
 void Engine::Impl::take(const Measurement& difference, const AidBook::Record& record) noexcept {

@@ -1,4 +1,4 @@
-// The site: where the anchors stand. Site frame: right-handed, metres, z up.
+// The site: where the anchors stand and the walls. Site frame: right-handed, metres, z up.
 #pragma once
 
 #include "fusion/measurement.h"
@@ -55,9 +55,21 @@ inline constexpr std::array origin_options{
                                              "Direction of the site's x axis, clockwise from true north."),
 };
 
+/// A wall of the floor plan, as people meet it: from one end to the other, seen from above.
+struct Wall {
+    Vec3 from_site_m{};
+    Vec3 to_site_m{};
+};
+
+inline constexpr std::array wall_options{
+    option<&Wall::from_site_m>("from_site_m", "m", -1e5, 1e5, "One end: [x, y, z]; z does not matter yet.", {}, true),
+    option<&Wall::to_site_m>("to_site_m", "m", -1e5, 1e5, "The other end: [x, y, z].", {}, true),
+};
+
 struct Site {
     std::string name;
     std::vector<Anchor> anchors;
+    std::vector<Wall> walls;
     std::optional<Wgs84Anchor> origin;
 
     /// nullptr when the address is not an anchor of the site. Linear: sites have tens of anchors.

@@ -23,9 +23,13 @@ class TargetTable {
     /// The slot of a tag, opened now if the tag is a stranger and may have one; else `none`.
     Slot slot_of(Address tag) noexcept;
 
+    /// The slot of a tag that has one; else `none`.
+    Slot find(Address tag) const noexcept { return slots_.find(tag); }
+
     /// Slots in use: 0 .. size() - 1.
     std::size_t size() const noexcept { return used_; }
     Timeline& timeline(std::size_t slot) noexcept { return targets_[slot].timeline; }
+    const Timeline& timeline(std::size_t slot) const noexcept { return targets_[slot].timeline; }
     std::string_view name(std::size_t slot) const noexcept { return targets_[slot].name; }
 
     /// A pose that holds all that never changes of the slot's target.

@@ -3,13 +3,14 @@
 #include "fusion/estimators/inertial_ekf.h"
 #include "fusion/estimators/kalman.h"
 #include "fusion/estimators/range_ekf.h"
+#include "fusion/estimators/walker_particles.h"
 
 #include <algorithm>
 #include <array>
 
 namespace locus {
 namespace {
-constexpr std::array rows{inertial_ekf_row, range_ekf_row,       chan_taylor_row,
+constexpr std::array rows{inertial_ekf_row, range_ekf_row,       walker_particles_row, chan_taylor_row,
                           kalman_row,       coloured_kalman_row, pca_kalman_row};
 }
 

@@ -94,6 +94,7 @@ Settings any_settings() {
         site.anchors.back().name = any_name(i);
         site.anchors.back().address = address(i * 1000);
     }
+    for (int i = *rc::gen::inRange(0, 4); i > 0; --i) fill(wall_options, &site.walls.emplace_back());
     for (const auto& section : config::flat_sections()) fill(section.rows, section.settings(settings));
     settings.engine.fusion.estimator = FusionSettings{}.estimator;
     settings.engine.clock_sync.master = site.anchors.empty() ? no_address : site.anchors.back().address;

@@ -33,6 +33,7 @@ void for_each_row(const Visit& visit) {
     };
     plain("site", site_options, Site{});
     plain("anchor", anchor_options, Anchor{});
+    plain("wall", wall_options, Wall{});
     plain("origin", origin_options, Wgs84Anchor{});
     plain("target", target_options, TargetSettings{});
     plain("input", input_options, InputSettings{});

@@ -1,0 +1,223 @@
+#include "fusion/estimators/walker_particles.h"
+
+#include "fusion/geometry/turn_and_stretch.h"
+#include "fusion/geometry/vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace locus {
+namespace {
+
+constexpr double heard_memory_s = 1;
+/// Blocked paths make a fix that is wrong by about their excess; only what is this many times farther off is elsewhere.
+constexpr double elsewhere = 3;
+/// The cloud moves at least this often, so that what lies ahead of it is a step at most.
+constexpr double longest_outlook_s = 0.5;
+constexpr std::size_t range_kind = 0, difference_kind = 1, imu_kind = 5;
+
+RangeEkfSettings reader_settings(const WalkerParticlesSettings& s) {
+    RangeEkfSettings reader;
+    reader.range_sigma_m = s.range_sigma_m;
+    reader.range_difference_sigma_m = s.range_difference_sigma_m;
+    reader.max_range_m = s.max_range_m;
+    reader.use_blocked = s.use_blocked;
+    return reader;
+}
+
+uwb::EpochSettings walker_epoch(const WalkerParticlesSettings& s) {
+    uwb::EpochSettings epoch;
+    epoch.window_s = s.start_window_s;
+    epoch.speed_mps = s.speed_sigma_mps;
+    epoch.held_range_sigma_m = std::hypot(s.anchor_error_sigma_m, s.height_sigma_m);
+    epoch.held_difference_sigma_m = std::numbers::sqrt2 * epoch.held_range_sigma_m;
+    epoch.solve.planar = true;
+    epoch.solve.height_site_m = s.height_m;
+    return epoch;
+}
+
+filter::ParticleSettings cloud_settings(const WalkerParticlesSettings& s) {
+    filter::ParticleSettings cloud;
+    cloud.max_count = s.max_particles;
+    cloud.min_count = s.min_particles;
+    cloud.seed = static_cast<std::uint64_t>(s.seed);
+    return cloud;
+}
+
+GaitSettings gait_settings(const WalkerParticlesSettings& s) {
+    GaitSettings gait;
+    gait.pedestrian.length.person_sigma = s.person_sigma;
+    gait.pedestrian.length.step_sigma = s.step_sigma;
+    gait.pedestrian.use_compass = s.use_compass;
+    gait.course_wander_rad_rts = s.course_wander_rad_rts;
+    return gait;
+}
+
+Eigen::Vector2d middle_of(const Site& site) {
+    Eigen::Vector2d sum(0, 0);
+    for (const Anchor& anchor : site.anchors) sum += vector(anchor.position_site_m).head<2>();
+    return site.anchors.empty() ? sum : Eigen::Vector2d(sum / static_cast<double>(site.anchors.size()));
+}
+
+} // namespace
+
+WalkerParticles::WalkerParticles(const Site& site, const WalkerParticlesSettings& settings)
+    : site_(&site), settings_(settings), gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
+      reader_(site, reader_settings(settings)), origin_(middle_of(site)), cloud_(cloud_settings(settings)),
+      state_{std::vector<filter::Gate>(site.anchors.size()),
+             std::vector<std::optional<Timestamp>>(site.anchors.size()),
+             {},
+             Gait(gait_settings(settings)),
+             uwb::EpochKeeper(site, walker_epoch(settings))} {}
+
+void WalkerParticles::copy_from(const Estimator& other) noexcept {
+    const auto& walker = static_cast<const WalkerParticles&>(other);
+    cloud_.copy_from(walker.cloud_);
+    state_ = walker.state_;
+}
+
+Verdict WalkerParticles::update(const Measurement& measurement) noexcept {
+    if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return hear(*imu, measurement.time);
+    if (const auto* peer = std::get_if<PeerRange>(&measurement.observation)) return hear(*peer, measurement.time);
+    const RangeReader::Reading reading = reader_.read(measurement);
+    if (reading.reason != Exclusion::none) return {reading.reason};
+    return take(reading.sighting, measurement.time);
+}
+
+Verdict WalkerParticles::hear(const ImuSample& sample, Timestamp time) noexcept {
+    if (!settings_.use_imu) return {Exclusion::disabled};
+    state_.gait.hear(sample, time);
+    if (state_.missing != Missing::nothing) return {Exclusion::waiting_for_start};
+    state_.kind_used[imu_kind] = time;
+    if (to_s(time - state_.time) > longest_outlook_s) advance(time);
+    return {};
+}
+
+Verdict WalkerParticles::take(const uwb::Sighting& sighting, Timestamp time) noexcept {
+    state_.epoch.keep(sighting, time);
+    if (state_.missing != Missing::nothing) return start(time);
+    advance(time);
+    const Verdict verdict = weigh(sighting, time);
+    if (verdict.reason == Exclusion::none) state_.kind_used[sighting.is_range() ? range_kind : difference_kind] = time;
+    start_again_if_lost(time);
+    return verdict;
+}
+
+Verdict WalkerParticles::start(Timestamp time) noexcept {
+    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
+    if (answer.agrees) {
+        start_at(answer.fix, time);
+        return {};
+    }
+    const bool disagrees = answer.fix.reason == Exclusion::none;
+    const bool few = answer.fix.reason == Exclusion::geometry_too_few;
+    state_.missing = disagrees ? Missing::agreement : few ? Missing::anchors : Missing::geometry;
+    return {disagrees ? Exclusion::waiting_for_start : answer.fix.reason};
+}
+
+void WalkerParticles::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
+    if (state_.missing == Missing::nothing) ++state_.reset_count;
+    const double speed_variance = settings_.speed_sigma_mps * settings_.speed_sigma_mps;
+    filter::Particles::Vector4 mean = filter::Particles::Vector4::Zero();
+    filter::Particles::Matrix4 covariance = filter::Particles::Matrix4::Identity() * speed_variance;
+    if (state_.by_steps) { // a wrong place says nothing against the heading
+        mean.tail<2>() = cloud_.mean().tail<2>();
+        covariance.bottomRightCorner<2, 2>() = cloud_.covariance().bottomRightCorner<2, 2>();
+    }
+    mean.head<2>() = local(fix.position_site_m);
+    covariance.topLeftCorner<2, 2>() = Eigen::Matrix3d(fix.covariance_m2.data()).topLeftCorner<2, 2>();
+    cloud_.start(mean, covariance);
+    cloud_.settle();
+    state_.gait.take();
+    state_.time = time;
+    state_.doubtful_since.reset();
+    state_.missing = Missing::nothing;
+}
+
+void WalkerParticles::advance(Timestamp time) noexcept {
+    if (time == state_.time) return;
+    const bool steps = state_.gait.leads() && state_.gait.heard(time);
+    if (steps && !state_.by_steps) lead_by_steps();
+    if (!steps && state_.by_steps) lead_by_velocity();
+    const double dt_s = to_s(time - state_.time);
+    const filter::ParticleMove move = state_.by_steps ? state_.gait.take() : wander(dt_s);
+    cloud_.move(move);
+    stop_at_walls(move.move.norm() * cloud_.mean().tail<2>().norm() + 4 * move.place_sigma_m);
+    cloud_.settle();
+    state_.time = time;
+}
+
+void WalkerParticles::stop_at_walls(double move_m) noexcept {
+    if (site_->walls.empty()) return;
+    const Eigen::Vector2d reach_m =
+        5 * cloud_.covariance().diagonal().head<2>().cwiseSqrt() + Eigen::Vector2d::Constant(move_m + 1);
+    const Eigen::AlignedBox2d near(cloud_.mean().head<2>() - reach_m, cloud_.mean().head<2>() + reach_m);
+    cloud_.begin_walls();
+    for (const Wall& wall : site_->walls) {
+        const Eigen::Vector2d from_m = local(wall.from_site_m), to_m = local(wall.to_site_m);
+        const Eigen::AlignedBox2d box(from_m.cwiseMin(to_m), from_m.cwiseMax(to_m));
+        if (near.intersects(box)) cloud_.hit_wall(from_m, to_m);
+    }
+    cloud_.end_walls();
+}
+
+/// The direction of the velocity, where there is a clear one, tells how the unit's heading lies in the site; else every
+/// direction is as likely.
+void WalkerParticles::lead_by_steps() noexcept {
+    state_.gait.take();
+    const Eigen::Vector2d velocity = cloud_.mean().tail<2>(), gait = state_.gait.speed_mps();
+    const double sigma = std::sqrt(0.5 * cloud_.covariance().bottomRightCorner<2, 2>().trace());
+    const double speed = velocity.norm();
+    if (speed > 3 * sigma && gait.norm() > 0)
+        cloud_.redraw_drives(quotient(velocity / speed, gait / gait.norm()),
+                             std::hypot(sigma / speed, settings_.person_sigma));
+    else
+        cloud_.redraw_drives({0, 0}, 1);
+    cloud_.weigh_drive_length(2 * settings_.person_sigma);
+    settle();
+    state_.by_steps = true;
+}
+
+void WalkerParticles::lead_by_velocity() noexcept {
+    cloud_.turn_drives(state_.gait.speed_mps());
+    cloud_.settle();
+    state_.by_steps = false;
+}
+
+bool WalkerParticles::settle() noexcept {
+    const bool alive = cloud_.settle();
+    cloud_.resample_if_poor();
+    return alive;
+}
+
+bool WalkerParticles::most_refuse(Timestamp time) const noexcept {
+    int heard = 0, refused = 0;
+    for (std::size_t i = 0; i < state_.gates.size(); ++i) {
+        if (!state_.heard[i] || to_s(time - *state_.heard[i]) > heard_memory_s) continue;
+        ++heard;
+        refused += state_.gates[i].refused_in_a_row() > 0 ? 1 : 0;
+    }
+    return 2 * refused > heard;
+}
+
+/// Most anchors refused may mean a bad site or a cloud in the wrong place: it moves only when the last window agrees on
+/// a place and fits there far better than here.
+void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
+    if (!most_refuse(time)) {
+        state_.doubtful_since.reset();
+        return;
+    }
+    if (!state_.doubtful_since) state_.doubtful_since = time;
+    if (to_s(time - *state_.doubtful_since) < settings_.lost_after_s) return;
+    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
+    const double away_m = (local(answer.fix.position_site_m) - cloud_.mean().head<2>()).norm();
+    const bool better = answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_;
+    if (better && away_m > elsewhere * settings_.blocked_excess_m) start_at(answer.fix, time);
+}
+
+std::unique_ptr<Estimator> make_walker_particles(const Site& site, const void* settings) {
+    return std::make_unique<WalkerParticles>(site, *static_cast<const WalkerParticlesSettings*>(settings));
+}
+
+} // namespace locus

@@ -1,0 +1,96 @@
+// People on a floor, by particles (paper 004 eq. 4-7 and its three steps: predict, weigh, resample). Steps of a worn
+// inertial unit move the cloud, a wandering velocity does where there is none; ranges, range differences and ranges
+// between people weigh it, each with a chance of a blocked path; walls stop it. It stays right where a Kalman filter
+// cannot: while the heading is not known yet, and where a wall leaves two rooms possible.
+#pragma once
+
+#include "fusion/estimators/estimator.h"
+#include "fusion/estimators/gait.h"
+#include "fusion/estimators/range_reader.h"
+#include "fusion/estimators/walker_particles_settings.h"
+#include "fusion/filter/gate.h"
+#include "fusion/filter/particles.h"
+#include "fusion/uwb/epoch_keeper.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace locus {
+
+class WalkerParticles final : public Estimator {
+  public:
+    /// `site` outlives the estimator.
+    WalkerParticles(const Site& site, const WalkerParticlesSettings& settings);
+
+    Verdict update(const Measurement& measurement) noexcept override;
+    Estimate predict(Timestamp time) const noexcept override;
+    std::unique_ptr<Estimator> clone() const override { return std::make_unique<WalkerParticles>(*this); }
+    void copy_from(const Estimator& other) noexcept override;
+
+    /// For tests: the cloud as it was after the last update.
+    const filter::Particles& cloud() const noexcept { return cloud_; }
+
+  private:
+    struct Expected {
+        double innovation_m = 0;
+        Eigen::Vector2d gradient{0, 0};
+        double climb = 0; ///< derivative by the tag's height
+    };
+
+    /// All but the cloud, whose copy leaves out what no one will read.
+    struct State {
+        std::vector<filter::Gate> gates; ///< by anchor; of a difference, anchor_b's
+        std::vector<std::optional<Timestamp>> heard;
+        std::array<std::optional<Timestamp>, 6> kind_used{};
+        Gait gait;
+        uwb::EpochKeeper epoch;
+        bool by_steps = false;                     ///< drives are turn and stretch of steps; else velocities
+        Timestamp time{};                          ///< of the cloud
+        std::optional<Timestamp> doubtful_since{}; ///< most anchors have been refused since
+        std::uint32_t reset_count = 0;
+        Missing missing = Missing::measurements;
+    };
+
+    Verdict hear(const ImuSample& sample, Timestamp time) noexcept;
+    Verdict hear(const PeerRange& range, Timestamp time) noexcept;
+    Eigen::Vector2d pace() const noexcept;
+    Verdict take(const uwb::Sighting& sighting, Timestamp time) noexcept;
+    Verdict start(Timestamp time) noexcept;
+    void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
+    void advance(Timestamp time) noexcept;
+    void stop_at_walls(double move_m) noexcept;
+    void lead_by_steps() noexcept;
+    void lead_by_velocity() noexcept;
+    filter::ParticleMove wander(double dt_s) const noexcept;
+
+    Expected expect(const uwb::Sighting& sighting) const noexcept;
+    double variance_m2(const uwb::Sighting& sighting, double climb, Timestamp time) noexcept;
+    Verdict judge(double innovation_m, double innovation_variance_m2) const noexcept;
+    Verdict weigh(const uwb::Sighting& sighting, Timestamp time) noexcept;
+    filter::ParticleNoise noise(double variance_m2) const noexcept;
+    bool settle() noexcept;
+    bool most_refuse(Timestamp time) const noexcept;
+    void start_again_if_lost(Timestamp time) noexcept;
+
+    Eigen::Vector2d local(const Vec3& site_m) const noexcept {
+        return {site_m[0] - origin_.x(), site_m[1] - origin_.y()};
+    }
+    Eigen::Vector3d place_site_m() const noexcept;
+
+    const Site* site_;
+    WalkerParticlesSettings settings_;
+    double gate_in_sigma_;
+    RangeReader reader_;
+    Eigen::Vector2d origin_{0, 0}; ///< of the cloud's places, so that single precision is enough
+    filter::Particles cloud_;
+    State state_;
+};
+
+std::unique_ptr<Estimator> make_walker_particles(const Site& site, const void* settings);
+
+inline constexpr EstimatorRow walker_particles_row{
+    "walker_particles", "People on a floor: steps of a worn inertial unit, ranges, ranges between people, walls.",
+    option_table<WalkerParticlesSettings>(walker_particles_options), make_walker_particles};
+
+} // namespace locus

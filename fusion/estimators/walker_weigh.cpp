@@ -1,0 +1,69 @@
+// How likely each particle makes what an anchor said of its wearer.
+#include "fusion/estimators/walker_particles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace locus {
+
+WalkerParticles::Expected WalkerParticles::expect(const uwb::Sighting& sighting) const noexcept {
+    const Eigen::Vector3d place = place_site_m();
+    const Eigen::Vector3d gradient = uwb::gradient(sighting, *site_, place);
+    return {sighting.value_m - uwb::predicted_m(sighting, *site_, place), gradient.head<2>(), gradient.z()};
+}
+
+/// Of the measurement against a place. An anchor heard faster than its error changes says the same again.
+double WalkerParticles::variance_m2(const uwb::Sighting& sighting, double climb, Timestamp time) noexcept {
+    auto& heard = state_.heard[static_cast<std::size_t>(sighting.plus)];
+    const double since_s = heard ? std::max(1e-3, to_s(time - *heard)) : settings_.anchor_error_time_s;
+    heard = time;
+    const double held = settings_.anchor_error_sigma_m * settings_.anchor_error_sigma_m * (sighting.is_range() ? 1 : 2);
+    const double repeated = std::max(1.0, settings_.anchor_error_time_s / since_s);
+    const double by_height = climb * settings_.height_sigma_m;
+    return double{sighting.sigma_m} * double{sighting.sigma_m} + held * repeated + by_height * by_height;
+}
+
+Verdict WalkerParticles::judge(double innovation_m, double innovation_variance_m2) const noexcept {
+    Verdict verdict;
+    const double sigma_m = std::sqrt(innovation_variance_m2);
+    verdict.innovation = static_cast<float>(innovation_m);
+    verdict.innovation_sigma = static_cast<float>(sigma_m);
+    verdict.test_ratio = static_cast<float>(std::abs(innovation_m) / (sigma_m * gate_in_sigma_));
+    return verdict;
+}
+
+filter::ParticleNoise WalkerParticles::noise(double variance_m2) const noexcept {
+    filter::ParticleNoise noise;
+    noise.sigma_m = std::sqrt(variance_m2);
+    noise.outlier_share = settings_.blocked_share;
+    noise.long_tail_m = noise.short_tail_m = settings_.blocked_excess_m + noise.sigma_m;
+    return noise;
+}
+
+Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) noexcept {
+    const Expected expected = expect(sighting);
+    const double variance = variance_m2(sighting, expected.climb, time);
+    const double spread = expected.gradient.dot(cloud_.covariance().topLeftCorner<2, 2>() * expected.gradient);
+    Verdict verdict = judge(expected.innovation_m, spread + variance);
+    auto& gate = state_.gates[static_cast<std::size_t>(sighting.plus)];
+    const double in_sigma = expected.innovation_m / std::sqrt(spread + variance);
+    if (!gate.passes(in_sigma, gate_in_sigma_, static_cast<std::uint32_t>(settings_.gate_patience))) {
+        verdict.reason = Exclusion::innovation_too_large;
+        verdict.weight = 0;
+        return verdict;
+    }
+    filter::ParticleNoise noise = this->noise(variance);
+    const Vec3& plus = site_->anchors[static_cast<std::size_t>(sighting.plus)].position_site_m;
+    if (sighting.is_range()) {
+        noise.short_tail_m = noise.sigma_m; // nothing makes a path much shorter
+        cloud_.weigh_range(local(plus), plus[2] - settings_.height_m, sighting.value_m, noise);
+    } else {
+        const Vec3& minus = site_->anchors[static_cast<std::size_t>(sighting.minus)].position_site_m;
+        cloud_.weigh_difference(local(minus), minus[2] - settings_.height_m, local(plus), plus[2] - settings_.height_m,
+                                sighting.value_m, noise);
+    }
+    if (!settle()) verdict.reason = Exclusion::innovation_too_large;
+    return verdict;
+}
+
+} // namespace locus
