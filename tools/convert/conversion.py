@@ -1,9 +1,59 @@
-"""What the converters share: how a site is written, how files are, and how a person is told what is wrong."""
+"""What the converters share: how tables are read, measurements and tracks are written, and a person is told what is wrong."""
+import csv
+import json
 import sys
 
 
 class Wrong(Exception):
     """A sentence for the person who called."""
+
+
+def rows(path, delimiter=",", columns=None):
+    """Numbers of a table under one line of titles; of all columns, or of those whose titles are given, in their order."""
+    try:
+        with open(path, newline="") as file:
+            lines = csv.reader(file, delimiter=delimiter)
+            titles = [title.strip() for title in next(lines, [])]
+            chosen = range(len(titles)) if columns is None else [titles.index(name) for name in columns]
+            return [[float(line[i]) for i in chosen] for line in lines if line]
+    except OSError as error:
+        raise Wrong(f"cannot read {path}: {error.strerror}")
+    except (ValueError, IndexError) as error:
+        raise Wrong(f"{path} is not the table of numbers that is expected: {error}")
+
+
+def rotate(quaternion_xyzw, vector):
+    """A vector of the body, in the frame of the site."""
+    x, y, z, w = quaternion_xyzw
+    norm = (x * x + y * y + z * z + w * w) ** 0.5
+    x, y, z, w = x / norm, y / norm, z / norm, w / norm
+    a, b, c = vector
+    tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return (a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx)
+
+
+def measurement(time_s, kind, **fields):
+    """One object of a *.jsonl recording, fields as in fusion/measurement.h; fields that are None are not known."""
+    known = {name: value for name, value in fields.items() if value is not None}
+    return {"t": round(time_s, 6), "class": kind, "input": 0, "sequence": 0, **known}
+
+
+def in_order(measurements):
+    """By time, each with its number."""
+    ordered = sorted(measurements, key=lambda one: one["t"])
+    for number, one in enumerate(ordered):
+        one["sequence"] = number
+    return ordered
+
+
+def write_measurements(path, measurements):
+    write(path, [json.dumps(one) for one in in_order(measurements)])
+
+
+def write_track(path, track):
+    """Rows of time, x, y, z and perhaps an orientation x, y, z, w, as a TUM trajectory."""
+    unturned = [0, 0, 0, 1]
+    write(path, [" ".join(f"{value:.6f}" for value in [*row, *unturned[: 8 - len(row)]]) for row in track])
 
 
 def site_yaml(name, anchors):
