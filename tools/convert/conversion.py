@@ -33,8 +33,8 @@ def rotate(quaternion_xyzw, vector):
 
 
 def measurement(time_s, kind, **fields):
-    """One object of a *.jsonl recording, fields as in fusion/measurement.h; fields that are None are not known."""
-    known = {name: value for name, value in fields.items() if value is not None}
+    """One object of a *.jsonl recording, fields as in fusion/measurement.h; what is no number is not known."""
+    known = {name: value for name, value in fields.items() if value == value}
     return {"t": round(time_s, 6), "class": kind, "input": 0, "sequence": 0, **known}
 
 
