@@ -1,6 +1,7 @@
 """What the converters share: how tables are read, measurements and tracks are written, and a person is told what is wrong."""
 import csv
 import json
+import math
 import sys
 
 
@@ -34,7 +35,7 @@ def rotate(quaternion_xyzw, vector):
 
 def measurement(time_s, kind, **fields):
     """One object of a *.jsonl recording, fields as in fusion/measurement.h; what is no number is not known."""
-    known = {name: value for name, value in fields.items() if value == value}
+    known = {name: value for name, value in fields.items() if isinstance(value, list) or math.isfinite(value)}
     return {"t": round(time_s, 6), "class": kind, "input": 0, "sequence": 0, **known}
 
 
