@@ -173,8 +173,13 @@ void add_bias(CLI::App& calibrate, int& exit_code) {
     app.add_option("--acceleration", request.walk.acceleration_mps2, "How fast the tag changes its velocity, m/s2")
         ->check(CLI::Range(0.01, 100.0))
         ->capture_default_str();
-    app.add_option("--prior-m", request.walk.prior_m, "Standard deviation of a bias before anything is known of it")
-        ->check(CLI::Range(0.01, 1000.0))
+    app.add_option("--common-m", request.walk.common_prior_m,
+                   "What all biases may have in common, 1 sigma, before the walk")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
+    app.add_option("--own-m", request.walk.own_prior_m,
+                   "How far one bias may be from the others, 1 sigma, before the walk")
+        ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
     app.add_flag("--merge", options->merge, "Write range_bias_m into the settings of --config; comments stay");
     app.add_flag("--json", options->json, "Print one JSON object");

@@ -112,7 +112,7 @@ BiasReport calibrate_bias(const BiasRequest& request, const Settings& settings) 
     BiasReport report{read_walk(request, settings), {}, !request.truth.empty()};
     report.biases = report.with_truth
                         ? biases_of_errors(report.walk.anchors.size(), errors_against(request.truth, report.walk),
-                                           request.walk.prior_m)
+                                           request.walk.common_prior_m)
                         : biases_of_walk(positions_of(report.walk.anchors), report.walk.ranges, request.walk);
     if (!report.biases.solved)
         throw std::runtime_error("these ranges give no position to start from: at least four anchors must be heard "

@@ -10,12 +10,12 @@ namespace {
 
 using tools::Align;
 
-/// A bias that is known little better than before the walk is not told.
+/// A bias that is known little better than how far anchors are apart before the walk is not told.
 constexpr double told_share_of_prior = 0.5;
 
 bool told(const BiasReport& report, const BiasRequest& request, std::size_t anchor) {
     return report.biases.counts[anchor] > 0 &&
-           report.biases.sigma_m(static_cast<Eigen::Index>(anchor)) < told_share_of_prior * request.walk.prior_m;
+           report.biases.sigma_m(static_cast<Eigen::Index>(anchor)) < told_share_of_prior * request.walk.own_prior_m;
 }
 
 std::vector<std::string> anchor_lines(const BiasReport& report, const BiasRequest& request) {

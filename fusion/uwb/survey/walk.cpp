@@ -62,6 +62,10 @@ class Equations {
                                           weight * slope[i] * slope[j]);
         }
     }
+    void add_prior(std::size_t at, double pull) { projection_(static_cast<Eigen::Index>(at)) -= pull; }
+    void add_information(std::size_t at, std::size_t before, double value) {
+        entries_.emplace_back(static_cast<int>(at), static_cast<int>(before), value);
+    }
     Eigen::SparseMatrix<double> information() const {
         Eigen::SparseMatrix<double> lower(projection_.size(), projection_.size());
         lower.setFromTriplets(entries_.begin(), entries_.end());
@@ -79,7 +83,7 @@ class WalkProblem {
     WalkProblem(const Anchors& anchors_m, const std::vector<WalkRange>& ranges, const WalkSettings& settings)
         : anchors_m_{anchors_m}, ranges_{ranges}, settings_{settings}, knots_{ranges, settings},
           path_m_{Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(knots_.size()))},
-          bias_m_{Eigen::VectorXd::Zero(anchors_m.rows())} {}
+          bias_m_{Eigen::VectorXd::Zero(anchors_m.rows())}, rate_hz_{rates()} {}
 
     bool start();
     void descend();
@@ -92,6 +96,7 @@ class WalkProblem {
     Knots knots_;
     Eigen::Matrix3Xd path_m_;
     Eigen::VectorXd bias_m_;
+    std::vector<double> rate_hz_; ///< ranges a second of each anchor
 
     struct Place {
         std::size_t knot = 0;
@@ -104,12 +109,29 @@ class WalkProblem {
     double residual_m(const WalkRange& range, const Place& place) const {
         return range.range_m - place.sight.range_m - bias_m_(static_cast<Eigen::Index>(range.anchor));
     }
+    std::vector<double> rates() const;
+    /// Of one range by itself: by it a range is an outlier.
+    double spread_m(const WalkRange& range) const { return std::hypot(range.sigma_m, settings_.held_error_m); }
+    /// Of one range among its like: over a long time as many ranges as there are say no more of a constant than this
+    /// has them say. The held error's variance over a time t is 2 T / t times its own, of r t ranges.
+    double worth_m(const WalkRange& range) const {
+        const double together = 2 * settings_.held_error_s * rate_hz_[range.anchor];
+        return std::hypot(range.sigma_m, std::sqrt(std::max(together, 1.0)) * settings_.held_error_m);
+    }
     std::optional<Vec3> fix_about(double time_s) const;
     void add_range(Equations& equations, const WalkRange& range, double widening) const;
     void add_motion(Equations& equations) const;
+    void add_prior(Equations& equations) const;
     Equations equations(double widening) const;
     double step(double widening);
 };
+
+std::vector<double> WalkProblem::rates() const {
+    std::vector<double> rate_hz(static_cast<std::size_t>(anchors_m_.rows()));
+    const double heard_s = settings_.step_s * static_cast<double>(knots_.size());
+    for (const WalkRange& range : ranges_) rate_hz[range.anchor] += 1 / heard_s;
+    return rate_hz;
+}
 
 WalkProblem::Place WalkProblem::place_of(const WalkRange& range) const {
     Place place;
@@ -161,16 +183,17 @@ void WalkProblem::add_range(Equations& equations, const WalkRange& range, double
     std::array<std::size_t, 7> at{};
     std::array<double, 7> slope{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double gradient = place.sight.gradient(static_cast<Eigen::Index>(axis)) / range.sigma_m;
+        const double gradient = place.sight.gradient(static_cast<Eigen::Index>(axis)) / worth_m(range);
         at[axis] = 3 * place.knot + axis;
         at[axis + 3] = at[axis] + 3;
         slope[axis] = (1 - place.share) * gradient;
         slope[axis + 3] = place.share * gradient;
     }
     at[6] = bias_at(range.anchor);
-    slope[6] = 1 / range.sigma_m;
-    const double residual = residual_m(range, place) / range.sigma_m;
-    equations.add(at, slope, residual, filter::cauchy_weight(residual, widening * half_weight_sigma));
+    slope[6] = 1 / worth_m(range);
+    const double left_m = residual_m(range, place);
+    const double weight = filter::cauchy_weight(left_m / spread_m(range), widening * half_weight_sigma);
+    equations.add(at, slope, left_m / worth_m(range), weight);
 }
 
 /// Second differences of the path are accelerations.
@@ -188,12 +211,25 @@ void WalkProblem::add_motion(Equations& equations) const {
     }
 }
 
+/// Inverse of own^2 I + common^2 11' (Sherman-Morrison).
+void WalkProblem::add_prior(Equations& equations) const {
+    const double own = settings_.own_prior_m * settings_.own_prior_m;
+    const double common = settings_.common_prior_m * settings_.common_prior_m;
+    const double shared = common / (own * (own + static_cast<double>(bias_m_.size()) * common));
+    for (Eigen::Index i = 0; i < bias_m_.size(); ++i) {
+        const double pull = bias_m_(i) / own - shared * bias_m_.sum();
+        equations.add_prior(bias_at(static_cast<std::size_t>(i)), pull);
+        for (Eigen::Index j = 0; j <= i; ++j)
+            equations.add_information(bias_at(static_cast<std::size_t>(i)), bias_at(static_cast<std::size_t>(j)),
+                                      (i == j ? 1 / own : 0) - shared);
+    }
+}
+
 Equations WalkProblem::equations(double widening) const {
     Equations sum(3 * knots_.size() + static_cast<std::size_t>(anchors_m_.rows()));
     for (const WalkRange& range : ranges_) add_range(sum, range, widening);
     add_motion(sum);
-    for (Eigen::Index i = 0; i < bias_m_.size(); ++i)
-        sum.add<1>({bias_at(static_cast<std::size_t>(i))}, {1 / settings_.prior_m}, -bias_m_(i) / settings_.prior_m, 1);
+    add_prior(sum);
     constexpr double hardly = 1e-3; // per metre: keeps points solvable that nothing was heard at
     for (std::size_t i = 0; i < 3 * knots_.size(); ++i) sum.add<1>({i}, {hardly}, 0, 1);
     return sum;
@@ -214,9 +250,9 @@ double WalkProblem::step(double widening) {
 }
 
 void WalkProblem::descend() {
+    constexpr int most_steps = 25;
     for (const double widening : {16.0, 4.0, 1.0}) {
-        constexpr int most_steps = 25;
-        constexpr double settled_m = 1e-3;
+        const double settled_m = widening > 1 ? 0.05 : 0.002;
         for (int i = 0; i < most_steps && step(widening) > settled_m; ++i) {
         }
     }
@@ -236,10 +272,10 @@ Biases WalkProblem::result() const {
     Biases found{true, bias_m_, Eigen::MatrixXd::Zero(count, count), std::vector<std::size_t>(anchors),
                  Eigen::VectorXd::Zero(count)};
     std::vector<std::vector<double>> left_m(anchors);
-    std::vector<double> sigma_m(anchors, 1);
+    std::vector<double> worth(anchors, 1);
     for (const WalkRange& range : ranges_) {
         left_m[range.anchor].push_back(residual_m(range, place_of(range)));
-        sigma_m[range.anchor] = range.sigma_m;
+        worth[range.anchor] = worth_m(range);
     }
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(equations(1).information());
     Eigen::VectorXd widened(count);
@@ -250,8 +286,8 @@ Biases WalkProblem::result() const {
         found.covariance.col(i) = robust_covariance_factor * solver.solve(one).tail(count);
         found.counts[anchor] = left_m[anchor].size();
         found.spread_m(i) = robust_spread(left_m[anchor]);
-        const double noisier = std::max(1.0, found.spread_m(i) / sigma_m[anchor]);
-        widened(i) = noisier * std::sqrt(correlated_samples(left_m[anchor]));
+        const double shown_m = found.spread_m(i) * std::sqrt(correlated_samples(left_m[anchor]));
+        widened(i) = std::max(1.0, shown_m / worth[anchor]);
     }
     found.covariance = widened.asDiagonal() * found.covariance * widened.asDiagonal();
     return found;

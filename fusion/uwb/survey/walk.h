@@ -13,7 +13,7 @@ struct WalkRange {
     double time_s = 0;
     std::size_t anchor = 0; ///< index
     double range_m = 0;
-    double sigma_m = 0.1;
+    double sigma_m = 0.1; ///< of what is new each time
 };
 
 struct WalkSettings {
@@ -21,8 +21,14 @@ struct WalkSettings {
     double step_s = 0.2;
     /// How fast people and small drones change their velocity, 1 sigma over a step.
     double acceleration_mps2 = 2;
-    /// Of a bias before anything is measured: what modules are off by when nobody has calibrated them.
-    double prior_m = 1;
+    /// Of what all anchors' biases have in common before anything is measured: modules whose antenna delay nobody set.
+    double common_prior_m = 1;
+    /// Of how far one anchor's bias is from the others': "up to 30 cm" between modules of one kind (Decawave APS014).
+    double own_prior_m = 0.3;
+    /// An anchor's error that stays for a while (antenna, body, multipath), and how long: as the range filter has it by
+    /// default. A recording's many ranges say no more of a bias than it changes.
+    double held_error_m = 0.2;
+    double held_error_s = 0.3;
     /// Silence beyond which nothing is known of the motion: the path begins anew.
     double gap_s = 2;
 };
@@ -49,7 +55,7 @@ struct KnownRange {
     double error_m = 0; ///< measured less true
 };
 
-/// The same where the track is known: each anchor by itself. In order of time.
+/// The same where the track is known: each anchor by itself. In order of time; anchors without ranges keep `prior_m`.
 Biases biases_of_errors(std::size_t anchors, const std::vector<KnownRange>& errors, double prior_m);
 
 } // namespace locus::uwb::survey
