@@ -133,10 +133,10 @@ double WalkProblem::step(double widening) {
 }
 
 void WalkProblem::descend() {
-    constexpr int most_steps = 25;
+    constexpr int steps_at_most = 25;
     for (const double widening : {16.0, 4.0, 1.0}) {
         const double settled_m = widening > 1 ? 0.05 : 0.002;
-        for (int i = 0; i < most_steps && step(widening) > settled_m; ++i) {
+        for (int i = 0; i < steps_at_most && step(widening) > settled_m; ++i) {
         }
     }
 }
