@@ -23,6 +23,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_import,
     locus::add_replay,
     locus::add_play,
+    locus::add_calibrate,
 });
 }
 

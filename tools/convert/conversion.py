@@ -1,6 +1,7 @@
 """What the converters share: how tables are read, measurements and tracks are written, and a person is told what is wrong."""
 import csv
 import json
+import math
 import sys
 
 
@@ -33,8 +34,9 @@ def rotate(quaternion_xyzw, vector):
 
 
 def measurement(time_s, kind, **fields):
-    """One object of a *.jsonl recording, fields as in fusion/measurement.h; fields that are None are not known."""
-    known = {name: value for name, value in fields.items() if value is not None}
+    """One object of a *.jsonl recording, fields as in fusion/measurement.h; what is None or no number is not known."""
+    known = {name: value for name, value in fields.items()
+             if value is not None and (isinstance(value, list) or math.isfinite(value))}
     return {"t": round(time_s, 6), "class": kind, "input": 0, "sequence": 0, **known}
 
 
@@ -62,6 +64,17 @@ def site_yaml(name, anchors):
     for number, x, y, z, *_ in anchors:
         lines.append(f"    - {{name: A{int(number)}, address: {int(number)}, position_site_m: [{x}, {y}, {z}]}}")
     return lines
+
+
+def estimator_yaml(**settings):
+    """Lines of the section `estimators`: what is known of a kind of device, for the default estimator and for range_ekf."""
+    told = ", ".join(f"{name}: {value}" for name, value in settings.items())
+    return ["estimators:", *(f"  {name}: {{{told}}}" for name in ("inertial_ekf", "range_ekf"))]
+
+
+# Kits that the maker delivers and calibrates as a whole have no error that all their ranges share; modules whose antenna delay
+# nobody measured have (the default).
+CALIBRATED_KIT = {"common_range_error_sigma_m": 0}
 
 
 def write(path, lines):

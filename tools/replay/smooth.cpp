@@ -38,6 +38,11 @@ bool has_orientation(const Estimate& estimate) {
     return std::ranges::any_of(estimate.orientation_xyzw, [](double number) { return number != 0; });
 }
 
+const Estimate& surer(const Estimate& a, const Estimate& b) {
+    const auto spread = [](const Estimate& e) { return e.covariance[0] + e.covariance[7] + e.covariance[14]; };
+    return spread(a) <= spread(b) ? a : b;
+}
+
 void bound(Pose& pose) {
     const auto& p = pose.estimate.covariance;
     pose.horizontal_error_95_m = horizontal_error_95_m(p[0], p[1], p[7]);
@@ -49,13 +54,12 @@ void bound(Pose& pose) {
 Estimate combined(const Estimate& before, const Estimate& after) {
     const Matrix6 share = share_of_after(covariance(before), covariance(after));
     const Vector6 mean = state(before) + share * (state(after) - state(before));
-    const Matrix6 all = covariance(before) - share * covariance(before);
     Estimate result = before;
     for (std::size_t i = 0; i < 3; ++i) {
         result.position_site_m[i] = mean(static_cast<int>(i));
         result.velocity_site_mps[i] = mean(static_cast<int>(i) + 3);
     }
-    Matrix6::Map(result.covariance.data()) = 0.5 * (all + all.transpose());
+    result.covariance = surer(before, after).covariance;
     if (!has_orientation(before)) result.orientation_xyzw = after.orientation_xyzw;
     result.kinds_used |= after.kinds_used;
     return result;

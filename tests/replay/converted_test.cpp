@@ -1,0 +1,94 @@
+// Recordings of others through their converters in tools/convert, the engine with its defaults, and the scoring of
+// `locus evaluate`: the very path that docs/accuracy.md tells people to take. Bars are what others published of the
+// same recordings, or what a fix of each epoch alone comes to.
+#include "config/load.h"
+#include "tests/replay/data.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/evaluate/read.h"
+#include "tools/evaluate/statistics.h"
+#include "tools/replay/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+namespace locus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+struct Recording {
+    const char* name; ///< of the case
+    const char* converter;
+    const char* data; ///< folder of the recordings
+    const char* run;
+    const char* output;
+    const char* truth = ".truth.tum";
+    double rmse_3d_m = none;
+    double rmse_2d_m = none;
+    const char* bar_from = "";
+};
+
+std::ostream& operator<<(std::ostream& out, const Recording& recording) { return out << recording.name; }
+
+constexpr Recording recordings[]{
+    {"FlightWithInertialSensor", "util_uwb_tdoa", "util_uwb_tdoa", "0426_tdoa3_traj5", "0426_tdoa3_traj5",
+     ".airborne.tum", 0.311, 0.161, "a constant-velocity filter without an inertial sensor"},
+    {"Walk1", "isas_walk", "isas_walk", "ISAS-Walk1", "ISAS-Walk1", ".truth.tum", 0.214, none,
+     "the fix of each epoch alone, as the converter prints it"},
+    {"Drone1", "iasl_uwb_imu", "iasl_uwb_imu", "scenario1", "scenario1", ".truth.tum", 0.247, none,
+     "published extended filter, x, y and z together"},
+    {"Drone2", "iasl_uwb_imu", "iasl_uwb_imu", "scenario2", "scenario2", ".truth.tum", 0.247, none,
+     "published extended filter, x, y and z together"},
+    {"YardClear1", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "LOS/Trajectory_A/Case_1", "LOS_Trajectory_A_Case_1",
+     ".truth.tum", none, 1.038, "published least squares, the better of the two"},
+    {"YardBlocked1", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "NLOS/Trajectory_A/Case_1",
+     "NLOS_Trajectory_A_Case_1", ".truth.tum", none, 0.938, "published error-state filter"},
+    {"YardBlocked2", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "NLOS/Trajectory_A/Case_2",
+     "NLOS_Trajectory_A_Case_2", ".truth.tum", none, 1.234, "published least squares, the better of the two"},
+};
+
+void convert(const Recording& recording, const std::filesystem::path& data, const std::string& folder) {
+    const std::string command = std::string("python3 '") + LOCUS_SOURCE_DIR + "/tools/convert/" + recording.converter +
+                                "' '" + data.string() + "' '" + recording.run + "' --out '" + folder + "' > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command; // NOLINT(cert-env33-c,concurrency-mt-unsafe): one thread
+}
+
+evaluate::Statistics scored(const std::string& stem, const std::string& truth) {
+    const auto loaded = load_settings(stem + ".site.yaml");
+    if (!loaded.settings) throw std::runtime_error("the converter's settings have problems");
+    const auto poses = stem + ".poses.jsonl";
+    const auto summary = replay::replay(*loaded.settings, {stem + ".jsonl", {poses}, ""});
+    EXPECT_EQ(summary.read.bad_lines, 0u);
+    const auto pairs = associate(evaluate::read_truth(truth), evaluate::read_estimate(poses), {}).pairs;
+    EXPECT_GT(pairs.size(), 3000u);
+    return evaluate::statistics(pairs, {});
+}
+
+class Converted : public testing::TestWithParam<Recording> {};
+
+TEST_P(Converted, KeepsItsBarWithAnHonestBound) {
+    const Recording recording = GetParam();
+    const auto data = test::recorded(recording.data);
+    if (!data) GTEST_SKIP() << "no " << recording.data << " in LOCUS_DATA or ../shared/data";
+    const test::TemporaryFolder folder;
+    ASSERT_NO_FATAL_FAILURE(convert(recording, *data, folder.path()));
+    const auto stem = folder / recording.output;
+    const auto score = scored(stem, stem + recording.truth);
+    ASSERT_TRUE(score.horizontal_coverage.has_value());
+    const double held = score.horizontal_coverage->share; // NOLINT(bugprone-unchecked-optional-access): the line above
+    std::printf("%-24s 3D %.3f horizontal %.3f m, bound held %.1f %%\n", recording.name, score.spatial.rmse_m,
+                score.horizontal.rmse_m, 100 * held);
+    EXPECT_LE(score.spatial.rmse_m, recording.rmse_3d_m) << recording.bar_from;
+    EXPECT_LE(score.horizontal.rmse_m, recording.rmse_2d_m) << recording.bar_from;
+    EXPECT_GE(held, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Recordings, Converted, testing::ValuesIn(recordings),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+} // namespace
+} // namespace locus
