@@ -96,7 +96,7 @@ TEST(Smooth, AWalkComesOutNearerToTheTruth) {
     Ticker ticker(engine, [&](std::span<const Pose> poses) {
         for (const Pose& pose : poses) {
             if (pose.estimate.missing != Missing::nothing) continue;
-            smoother.keep(pose, "walker");
+            smoother.keep(pose, std::string{engine.target_name(pose.target_index)});
             live_m2 += error_m2(pose.estimate);
             ++live;
         }
