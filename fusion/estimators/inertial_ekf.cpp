@@ -40,7 +40,9 @@ Estimate mixed(const Estimate& a, const Estimate& b, double share_of_b) {
 } // namespace
 
 InertialEkf::InertialEkf(const Site& site, const InertialEkfSettings& settings)
-    : settings_(settings), plain_(site, settings), aided_(site, settings), probation_s_(first_probation_s) {}
+    : settings_(settings), plain_(site, settings), aided_(site, settings), probation_s_(first_probation_s) {
+    aided_.forget_after(std::max(settings.forget_after_s, settings.dead_reckoning_s));
+}
 
 Verdict InertialEkf::update(const Measurement& measurement) noexcept {
     if (std::holds_alternative<ImuSample>(measurement.observation)) return sense(measurement);
@@ -54,8 +56,11 @@ Verdict InertialEkf::update(const Measurement& measurement) noexcept {
 }
 
 Verdict InertialEkf::sense(const Measurement& measurement) noexcept {
-    if (!settings_.use_imu) return {Exclusion::disabled};
-    if (!sensed_) aided_.restart_from(plain_);
+    if (!settings_.use_imu || settings_.planar) return {Exclusion::disabled}; // nothing would hold the height
+    if (!sensed_) {
+        aided_.restart_from(plain_);
+        resets_ = resets_seen_ = plain_.reset_count();
+    }
     sensed_ = true;
     const Verdict verdict = aided_.update(measurement);
     turn_to_the_better(measurement.time);
@@ -87,6 +92,14 @@ void InertialEkf::turn_to_the_better(Timestamp time) noexcept {
     done_well_s_ = aided_.track().is_inertial() ? done_well_s_ + dt_s : 0;
     const double step = dt_s / change_over_s;
     aided_share_ = std::clamp(aided_share_ + (done_well_s_ > probation_s_ ? step : -step), 0.0, 1.0);
+    count_resets();
+}
+
+/// Clients see one counter that never falls, whichever filter is published.
+void InertialEkf::count_resets() noexcept {
+    const std::uint32_t now = (aided_share_ > 0.5 ? aided_ : plain_).reset_count();
+    if (now > resets_seen_) resets_ += now - resets_seen_;
+    resets_seen_ = now;
 }
 
 void InertialEkf::start_aided_again() noexcept {
@@ -102,6 +115,7 @@ Estimate InertialEkf::predict(Timestamp time) const noexcept {
         estimate =
             aided_share_ == 1 || estimate.missing != Missing::nothing ? aided : mixed(estimate, aided, aided_share_);
     }
+    if (sensed_) estimate.reset_count = resets_;
     if (estimate.missing == Missing::nothing && is_out_of_date(time)) estimate.missing = Missing::fresh_measurements;
     return estimate;
 }

@@ -29,6 +29,7 @@ class InertialEkf final : public Estimator {
     void turn_to_the_better(Timestamp time) noexcept;
     bool aided_is_worse() const noexcept;
     void start_aided_again() noexcept;
+    void count_resets() noexcept;
     bool is_out_of_date(Timestamp time) const noexcept;
 
     InertialEkfSettings settings_;
@@ -39,7 +40,8 @@ class InertialEkf final : public Estimator {
     double aided_share_ = 0;  ///< 0..1, of the aided filter in what is published
     double probation_s_;      ///< how long it must do well first
     double done_well_s_ = 0;
-    bool sensed_ = false; ///< there is an inertial sensor
+    bool sensed_ = false;                        ///< there is an inertial sensor
+    std::uint32_t resets_ = 0, resets_seen_ = 0; ///< of what was published; of the filter that it came from
     Timestamp compared_{};
     Timestamp time_{};
 };

@@ -96,9 +96,9 @@ Verdict NavFilter::take(const WheelSpeed& wheel) noexcept {
 
 void NavFilter::restart_from(const NavFilter& other) noexcept {
     const NavTrack before = track_;
-    const InertialEkfSettings settings = settings_;
+    const double patience_s = forget_after_s();
     *this = other;
-    settings_ = settings;
+    forget_after(patience_s);
     track_.keep_sensor(before);
 }
 

@@ -20,7 +20,9 @@ class NavFilter final : public RangeFilter<NavTrack> {
     /// Takes over all that another one knows of the target; what the inertial sensor has taught stays.
     void restart_from(const NavFilter& other) noexcept;
 
+    using RangeFilter::forget_after;
     using RangeFilter::has_position;
+    using RangeFilter::reset_count;
     using RangeFilter::unheard_s;
 
   private:

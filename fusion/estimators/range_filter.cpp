@@ -37,7 +37,7 @@ Missing missing_for(Exclusion reason) {
 
 template <class Track>
 RangeFilter<Track>::RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track)
-    : track_(track), site_(&site), settings_(settings),
+    : track_(track), site_(&site), settings_(settings), forget_after_s_(settings.forget_after_s),
       gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
       start_anew_cost_(gate_in_sigma_ * gate_in_sigma_), reader_(site, settings), errors_(carried_errors(settings)),
       epoch_(site, epoch_settings(settings)), robust_(settings.robust_scale), gates_(site.anchors.size()) {}
@@ -59,7 +59,7 @@ template <class Track>
 Verdict RangeFilter<Track>::take(const uwb::Sighting& sighting, const Measurement& measurement) noexcept {
     const Timestamp time = measurement.time;
     epoch_.keep(sighting, time);
-    const bool forgotten = has_position() && to_s(time - used_time_) > settings_.forget_after_s;
+    const bool forgotten = has_position() && to_s(time - used_time_) > forget_after_s_;
     if (!has_position() || forgotten) return start(time);
 
     const double dt_s = to_s(time - time_);

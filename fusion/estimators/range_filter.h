@@ -31,6 +31,11 @@ class RangeFilter : public Estimator {
     RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track);
 
     bool has_position() const noexcept { return missing_ == Missing::nothing; }
+    /// A filter that keeps its way without ranges may wait longer than the settings say.
+    void forget_after(double seconds) noexcept { forget_after_s_ = seconds; }
+    double forget_after_s() const noexcept { return forget_after_s_; }
+
+    std::uint32_t reset_count() const noexcept { return reset_count_; }
     /// Since the last range or range difference that was used; only where there is a position.
     double unheard_s(Timestamp time) const noexcept { return to_s(time - used_time_); }
 
@@ -59,6 +64,7 @@ class RangeFilter : public Estimator {
 
     const Site* site_;
     RangeEkfSettings settings_;
+    double forget_after_s_;
     double gate_in_sigma_;
     double start_anew_cost_;
 

@@ -193,6 +193,26 @@ TEST(InertialEkf, SaysWhenItsPositionIsOutOfDate) {
     EXPECT_EQ(filter.predict(timestamp_from_s(35.1)).missing, Missing::fresh_measurements);
 }
 
+TEST(InertialEkf, ComesOutOfALongOutageWithoutAReset) {
+    const Site site = test::hall();
+    Plan plan;
+    plan.until_s = 40;
+    plan.has_ranges = [](double t) { return t < 30 || t > 36; }; // twice forget_after_s, less than dead_reckoning_s
+    InertialEkf filter(site, told());
+    fly(filter, site, {}, plan, 3);
+    EXPECT_TRUE(filter.track().is_inertial());
+    EXPECT_EQ(filter.predict(timestamp_from_s(40)).reset_count, 0u);
+}
+
+TEST(InertialEkf, PlanarLeavesTheSensorAside) {
+    const Site site = test::hall();
+    InertialEkfSettings settings = told();
+    settings.planar = true;
+    InertialEkf filter(site, settings);
+    SimulatedFlight flight(site, {}, 1);
+    EXPECT_EQ(filter.update(flight.imu(1)).reason, Exclusion::disabled);
+}
+
 TEST(InertialEkf, HeightAndSpeedGoIn) {
     const Site site = test::hall();
     InertialEkf filter(site, told());
