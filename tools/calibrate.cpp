@@ -26,9 +26,12 @@ struct AnchorsOptions {
 
 bool asked_at_a_terminal() { return ::isatty(STDIN_FILENO) == 1 && tools::on_terminal(); }
 
+bool is_by_height(const uwb::survey::Survey& survey) { return survey.mirror && survey.mirror->by_height; }
+
 /// Asks until one of the two is typed; what is left at the end of input is no answer.
 std::optional<Side> ask(const uwb::survey::Survey& survey, const MeasuredPairs& measured) {
-    const std::array words{survey.mirror->by_height ? "above" : "left", survey.mirror->by_height ? "below" : "right"};
+    const bool upright = is_by_height(survey);
+    const std::array words{upright ? "above" : "left", upright ? "below" : "right"};
     fmt::print("{}\n", question_of(survey, measured));
     for (std::string answer;
          fmt::print("{} or {}: ", words[0], words[1]), std::cout.flush(), std::getline(std::cin, answer);)
@@ -41,11 +44,11 @@ std::optional<uwb::survey::Image> settled(const uwb::survey::Survey& survey, con
                                           AnchorsRequest& request) {
     if (auto image = chosen(survey, request)) return image;
     if (asked_at_a_terminal()) {
-        (survey.mirror->by_height ? request.over_it : request.beside) = ask(survey, measured);
+        (is_by_height(survey) ? request.over_it : request.beside) = ask(survey, measured);
         return chosen(survey, request);
     }
     complain(question_of(survey, measured));
-    complain(survey.mirror->by_height ? "Say --above or --below." : "Say --mirror left or --mirror right.");
+    complain(is_by_height(survey) ? "Say --above or --below." : "Say --mirror left or --mirror right.");
     return {};
 }
 
@@ -61,7 +64,10 @@ int survey_anchors(AnchorsOptions& options) {
     AnchorsRequest& request = options.request;
     if (options.above || options.below) request.over_it = options.above ? Side::above : Side::below;
     std::optional<Settings> settings;
-    if (!request.config.empty() && !(settings = tools::settings_of_file(request.config))) return exit_usage;
+    if (!request.config.empty()) {
+        settings = tools::settings_of_file(request.config);
+        if (!settings) return exit_usage;
+    }
     const MeasuredPairs measured = read_pairs(request.file, settings, request.sigma_m);
     const uwb::survey::Task task = task_of(request, measured);
     const uwb::survey::Survey survey = uwb::survey::survey(task);

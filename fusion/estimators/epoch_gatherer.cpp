@@ -52,7 +52,7 @@ EpochGatherer::News EpochGatherer::take(const Measurement& measurement) noexcept
     news.opens_epoch = is_over(reading.sighting, time);
     if (news.opens_epoch) opened_ = time;
     keeper_.keep(reading.sighting, time);
-    const Timestamp since = reach_ == Reach::epoch ? *opened_ : time - epoch_;
+    const Timestamp since = reach_ == Reach::epoch ? opened_.value_or(time) : time - epoch_;
     const uwb::EpochKeeper::Answer answer = keeper_.solve_since(since, time, Eigen::Vector3d::Zero());
     news.reason = judge(answer, reading.sighting, time);
     if (answer.agrees) news.fix = answer.fix;

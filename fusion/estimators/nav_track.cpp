@@ -3,6 +3,7 @@
 #include "fusion/geometry/rotation.h"
 
 #include <cmath>
+#include <utility>
 
 namespace locus {
 namespace {
@@ -16,7 +17,7 @@ double square(double x) { return x * x; }
 
 } // namespace
 
-NavTrack::NavTrack(const NavModel& model) noexcept : WanderingState(motion_size), model_(model) {}
+NavTrack::NavTrack(NavModel model) noexcept : WanderingState(motion_size), model_(std::move(model)) {}
 
 void NavTrack::start(const Eigen::Vector3d& antenna_site_m, const Eigen::Matrix3d& covariance_m2) noexcept {
     mode_ = Mode::kinematic;

@@ -32,7 +32,7 @@ class NavTrack : public filter::WanderingState<inertial::navigation_size> {
   public:
     enum class Mode : std::uint8_t { kinematic, aligning, inertial };
 
-    explicit NavTrack(const NavModel& model) noexcept;
+    explicit NavTrack(NavModel model) noexcept;
 
     /// At rest at `antenna_site_m` with covariance in m^2, not yet inertial; all wanderers are forgotten.
     void start(const Eigen::Vector3d& antenna_site_m, const Eigen::Matrix3d& covariance_m2) noexcept;

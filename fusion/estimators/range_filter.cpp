@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace locus {
 namespace {
@@ -36,8 +37,8 @@ Missing missing_for(Exclusion reason) {
 } // namespace
 
 template <class Track>
-RangeFilter<Track>::RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track)
-    : track_(track), site_(&site), settings_(settings), forget_after_s_(settings.forget_after_s),
+RangeFilter<Track>::RangeFilter(const Site& site, const RangeEkfSettings& settings, Track track)
+    : track_(std::move(track)), site_(&site), settings_(settings), forget_after_s_(settings.forget_after_s),
       gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
       start_anew_cost_(gate_in_sigma_ * gate_in_sigma_), reader_(site, settings), errors_(carried_errors(settings)),
       epoch_(site, epoch_settings(settings)), robust_(settings.robust_scale), gates_(site.anchors.size()) {}

@@ -28,7 +28,7 @@ class RangeFilter : public Estimator {
 
   protected:
     /// `site` outlives the filter.
-    RangeFilter(const Site& site, const RangeEkfSettings& settings, const Track& track);
+    RangeFilter(const Site& site, const RangeEkfSettings& settings, Track track);
 
     bool has_position() const noexcept { return missing_ == Missing::nothing; }
     /// A filter that keeps its way without ranges may wait longer than the settings say.

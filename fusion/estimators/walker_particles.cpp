@@ -194,7 +194,8 @@ bool WalkerParticles::settle() noexcept {
 bool WalkerParticles::most_refuse(Timestamp time) const noexcept {
     int heard = 0, refused = 0;
     for (std::size_t i = 0; i < state_.gates.size(); ++i) {
-        if (!state_.heard[i] || to_s(time - *state_.heard[i]) > heard_memory_s) continue;
+        const auto& last = state_.heard[i];
+        if (!last || to_s(time - *last) > heard_memory_s) continue;
         ++heard;
         refused += state_.gates[i].refused_in_a_row() > 0 ? 1 : 0;
     }

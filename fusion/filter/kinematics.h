@@ -29,6 +29,7 @@ void start_axes(Vector& state, Matrix& covariance, const TrackModel& model, cons
     }
 }
 
+// NOLINTBEGIN(cppcoreguidelines-missing-std-forward): columns are temporaries that stand for what they refer to
 /// F x for the transition F of axis_step(): the numbers below its diagonal are zero and the upper two on it are one.
 /// Written out, it takes half the time of full matrices.
 template <class Numbers>
@@ -60,5 +61,6 @@ void move_column(Column&& column, const AxisStep& step, double keep) noexcept {
     column *= keep;
     for (int i = 0; i < 9; i += 3) advance(step.transition, column(i), column(i + 1), column(i + 2));
 }
+// NOLINTEND(cppcoreguidelines-missing-std-forward)
 
 } // namespace locus::filter

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <numbers>
 
 namespace locus::filter {
 
@@ -12,9 +13,9 @@ namespace locus::filter {
 /// rest by the Taylor polynomial of degree six on +-0.35.
 inline float exp_of_negative(float x) {
     const float bounded = x < -80.0f ? -80.0f : x;
-    const float scaled = bounded * 1.44269504f;
+    const float scaled = bounded * std::numbers::log2e_v<float>;
     const auto whole = static_cast<std::int32_t>(scaled - 0.5f); // towards zero: nearest, for all that is below zero
-    const float rest = (scaled - static_cast<float>(whole)) * 0.69314718f;
+    const float rest = (scaled - static_cast<float>(whole)) * std::numbers::ln2_v<float>;
     const float even = 1.0f + rest * rest * (0.5f + rest * rest * (1.0f / 24 + rest * rest * (1.0f / 720)));
     const float odd = rest * (1.0f + rest * rest * (1.0f / 6 + rest * rest * (1.0f / 120)));
     return (even + odd) * std::bit_cast<float>((whole + 127) << 23);
@@ -53,7 +54,7 @@ class LaneRandom {
                 sum[i] += static_cast<float>(static_cast<std::int32_t>(states_[i] & 0xffffu)) * half +
                           static_cast<float>(static_cast<std::int32_t>(states_[i] >> 16)) * half;
         }
-        for (float& each : sum) each = (each - 2.0f) * 1.7320508f;
+        for (float& each : sum) each = (each - 2.0f) * std::numbers::sqrt3_v<float>;
         return sum;
     }
 

@@ -260,9 +260,8 @@ void Particles::fill_moments() noexcept {
         }
     const Vector4 off(first[0].total(), first[1].total(), first[2].total(), first[3].total());
     mean_ = about.cast<double>() + off;
-    for (int row = 0, next = 0; row < 4; ++row)
-        for (int column = row; column < 4; ++column)
-            covariance_(row, column) = covariance_(column, row) = second[next++].total() - off(row) * off(column);
+    for (int i = 0, next = 0; i < 4; ++i)
+        for (int j = i; j < 4; ++j) covariance_(i, j) = covariance_(j, i) = second[next++].total() - off(i) * off(j);
 }
 
 } // namespace locus::filter

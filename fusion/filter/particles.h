@@ -56,7 +56,7 @@ class Particles {
     void copy_from(const Particles& other) noexcept;
 
     void start(const Vector4& mean, const Matrix4& covariance) noexcept;
-    void move(const ParticleMove& move) noexcept;
+    void move(const ParticleMove& given) noexcept;
 
     /// Shuts out the particles whose last move went through a wall: begin, each wall that stands near, end.
     void begin_walls() noexcept;

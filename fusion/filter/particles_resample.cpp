@@ -69,8 +69,8 @@ std::size_t Particles::bins_in_use() const noexcept {
         if (weights_[i] < least) continue;
         const int column = bin_of(parts_[x][i] - static_cast<float>(mean_(0)), settings_.bin_m);
         const int row = bin_of(parts_[y][i] - static_cast<float>(mean_(1)), settings_.bin_m);
-        used.set(static_cast<std::size_t>((row * bins_across + column) * directions +
-                                          direction_of(parts_[u][i], parts_[v][i])));
+        const int bin = (row * bins_across + column) * directions + direction_of(parts_[u][i], parts_[v][i]);
+        used.set(static_cast<std::size_t>(bin));
     }
     return used.count();
 }
@@ -78,12 +78,13 @@ std::size_t Particles::bins_in_use() const noexcept {
 /// Systematic resampling: one random number, then a comb over the sum of weights (Kitagawa 1996).
 void Particles::choose(std::size_t count) noexcept {
     const double tooth = 1 / static_cast<double>(count);
-    double reached = double{weights_[0]};
+    auto reached = double{weights_[0]};
     double wanted = tooth * double{random_.uniform()};
     std::size_t from = 0;
-    for (std::size_t to = 0; to < count; ++to, wanted += tooth) {
+    for (std::size_t to = 0; to < count; ++to) {
         while (reached < wanted && from + 1 < count_) reached += double{weights_[++from]};
         for (std::size_t part = 0; part < part_count; ++part) before_[part][to] = parts_[part][from];
+        wanted += tooth;
     }
     for (std::size_t part = 0; part < part_count; ++part) before_[part].swap(parts_[part]);
 }

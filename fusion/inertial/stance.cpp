@@ -15,12 +15,12 @@ bool StanceDetector::hear(const Eigen::Vector3d& specific_force_mps2, const Eige
     window_.push_back({specific_force_mps2, angular_rate_radps, gap ? 0 : dt_s});
     span_s_ += window_.back().dt_s;
     statistic_ = likelihood_ratio();
-    const bool filled = span_s_ >= 0.8 * settings_.window_s || window_.size() == window_.capacity();
+    const bool filled = span_s_ >= 0.8 * settings_.window_s || window_.size() == decltype(window_)::capacity();
     return filled && statistic_ < settings_.threshold;
 }
 
 void StanceDetector::forget() noexcept {
-    while (!window_.empty() && (span_s_ > settings_.window_s || window_.size() == window_.capacity())) {
+    while (!window_.empty() && (span_s_ > settings_.window_s || window_.size() == decltype(window_)::capacity())) {
         span_s_ -= window_.front().dt_s;
         window_.erase(window_.begin());
     }

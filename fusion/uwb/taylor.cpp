@@ -47,7 +47,7 @@ NormalEquations<D> linearise(const Epoch& epoch, const Values& values, const Eig
         const Eigen::Vector4d full =
             row.inverse_sigma * (values.col(&row - epoch.rows.data()) - (sights.col(row.b) - sights.col(row.a)));
         if constexpr (D == 3)
-            return full;
+            return typename NormalEquations<D>::Equation(full);
         else
             return {full(0), full(1), full(3)};
     });

@@ -45,7 +45,7 @@ Task task_of(const AnchorsRequest& request, const MeasuredPairs& measured) {
     task.stations.resize(measured.anchors.size());
     for (std::size_t i = 0; i < measured.anchors.size(); ++i) {
         if (request.heights) task.stations[i].height_site_m = measured.anchors[i].position_site_m[2];
-        if (request.height_m) task.stations[i].height_site_m = *request.height_m;
+        if (request.height_m) task.stations[i].height_site_m = request.height_m;
     }
     for (const std::string& word : request.known) {
         const std::size_t station = station_of(word, measured);

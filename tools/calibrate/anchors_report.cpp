@@ -100,9 +100,10 @@ std::vector<std::string> not_told(const Image& image, const MeasuredPairs& measu
                                             measured.anchors[i].name, size));
         }
     if (!sentences.empty())
-        sentences.push_back("anchors that hang equally high tell no heights: measure those with a tape and give them "
-                            "(--heights, --height); else measure these anchors to more others, or name known ones "
-                            "(--known) that do not stand in one plane with them");
+        sentences.emplace_back(
+            "anchors that hang equally high tell no heights: measure those with a tape and give them "
+            "(--heights, --height); else measure these anchors to more others, or name known ones "
+            "(--known) that do not stand in one plane with them");
     return sentences;
 }
 

@@ -30,7 +30,7 @@ class Run {
             if (smoother_) smoother_->keep(m);
         });
         ticker_.finish();
-        if (smoother_) smooth();
+        if (smoother_) smooth(*smoother_);
         for (const auto& file : files_) file->close();
         summary_.engine = engine_.counters();
         return std::move(summary_);
@@ -54,9 +54,9 @@ class Run {
         }
     }
 
-    void smooth() {
-        smoother_->finish([this](const Pose& pose, const std::string& target) { write(pose, target); });
-        summary_.one_way = smoother_->one_way();
+    void smooth(Smoother& smoother) {
+        smoother.finish([this](const Pose& pose, const std::string& target) { write(pose, target); });
+        summary_.one_way = smoother.one_way();
     }
 
     void write(const Pose& pose, const std::string& target) {

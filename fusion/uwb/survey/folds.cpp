@@ -17,7 +17,7 @@ Positions neighbours_of(const std::vector<PairRange>& pairs, const Positions& at
 /// Mirror image of a point in the plane (or line) that lies best between the others.
 Eigen::Vector3d reflection(const Eigen::Vector3d& point_m, const Positions& others_m, int dimensions) {
     const Eigen::RowVector3d centre_m = others_m.colwise().mean();
-    Eigen::MatrixXd arms_m = (others_m.rowwise() - centre_m).leftCols(dimensions);
+    const Eigen::MatrixXd arms_m = (others_m.rowwise() - centre_m).leftCols(dimensions);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(arms_m, Eigen::ComputeFullV);
     const Eigen::VectorXd normal = svd.matrixV().col(dimensions - 1);
     const Eigen::VectorXd arm_m = (point_m - centre_m.transpose()).head(dimensions);
@@ -71,7 +71,7 @@ Positions replaced(const std::vector<PairRange>& pairs, const Sought& sought, co
                    std::size_t station, int dimensions) {
     const Alone alone(pairs, sought, at_m, station, dimensions);
     if (!alone.movable()) return at_m;
-    Descent best = descend(alone.pairs, alone.sought, at_m);
+    const Descent best = descend(alone.pairs, alone.sought, at_m);
     const Descent over = descend(alone.pairs, alone.sought, alone.image_m);
     return without_one(alone, over.cost < best.cost ? over : best).position_m;
 }
@@ -84,6 +84,8 @@ Descent folded(const std::vector<PairRange>& pairs, const Sought& sought, const 
     if (!alone.movable()) return descend(pairs, sought, at_m);
     return descend(pairs, sought, descend(alone.pairs, alone.sought, alone.image_m).position_m);
 }
+
+namespace {
 
 /// Every pair may be the one that holds all in a wrong shape: the best of what is reached without each of them.
 Descent without_a_pair(const std::vector<PairRange>& pairs, const Sought& sought, Descent best) {
@@ -98,6 +100,8 @@ Descent without_a_pair(const std::vector<PairRange>& pairs, const Sought& sought
     }
     return best;
 }
+
+} // namespace
 
 Descent unfolded(const std::vector<PairRange>& pairs, const Sought& sought, const Positions& start_m, int dimensions) {
     Descent best = without_a_pair(pairs, sought, descend_snooping(pairs, sought, start_m));

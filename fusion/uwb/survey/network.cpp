@@ -115,9 +115,9 @@ Descent descend(const std::vector<PairRange>& pairs, const Sought& sought, const
 
 Descent descend_snooping(const std::vector<PairRange>& pairs, const Sought& sought, const Positions& start_m) {
     const Unknowns unknowns(sought);
-    const Descent plain = descend(pairs, sought, start_m);
-    if (unknowns.count == 0) return plain;
-    return better(plain, descend_in_scales(pairs, unknowns, snooped(pairs, unknowns, start_m), {1}));
+    if (unknowns.count == 0) return descend(pairs, sought, start_m);
+    return better(descend(pairs, sought, start_m),
+                  descend_in_scales(pairs, unknowns, snooped(pairs, unknowns, start_m), {1}));
 }
 
 Adjustment adjust(const std::vector<PairRange>& pairs, const Sought& sought, const Positions& start_m) {

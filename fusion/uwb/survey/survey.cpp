@@ -42,6 +42,9 @@ void put_known(const Task& task, Positions& positions_m) {
     for (const std::size_t station : known_of(task)) positions_m.row(row(station)) = known_m.row(row(station));
 }
 
+/// Of a station that is known.
+Eigen::Vector3d place_of(const Station& station) { return station.known_site_m.value_or(Eigen::Vector3d::Zero()); }
+
 /// Pairs whose both ends are known count as what they are, and in two dimensions only the way along the floor counts.
 std::vector<PairRange> for_scaling(const Task& task) {
     std::vector<PairRange> pairs = task.pairs;
@@ -49,8 +52,7 @@ std::vector<PairRange> for_scaling(const Task& task) {
     for (std::size_t i = 0; i < known.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             pairs.push_back({known[i], known[j],
-                             (*task.stations[known[i]].known_site_m - *task.stations[known[j]].known_site_m).norm(),
-                             1});
+                             (place_of(task.stations[known[i]]) - place_of(task.stations[known[j]])).norm(), 1});
     if (task.dimensions() == 2)
         for (PairRange& pair : pairs) {
             const double rise_m = height_of(task.stations[pair.a]) - height_of(task.stations[pair.b]);
@@ -69,8 +71,7 @@ Trouble trouble_with_known(const Task& task) {
     if (known.empty()) return Trouble::none;
     if (known.size() < needed) return Trouble::known_too_few;
     Positions known_m(row(known.size()), 3);
-    for (std::size_t i = 0; i < known.size(); ++i)
-        known_m.row(row(i)) = task.stations[known[i]].known_site_m->transpose();
+    for (std::size_t i = 0; i < known.size(); ++i) known_m.row(row(i)) = place_of(task.stations[known[i]]).transpose();
     if (task.dimensions() == 2) known_m.col(2).setZero();
     return spans(known_m, task.dimensions() - 1, least_span_m) ? Trouble::none : Trouble::known_in_line;
 }

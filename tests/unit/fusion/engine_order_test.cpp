@@ -62,7 +62,8 @@ Observation seen(const EngineSettings& settings, double time_s, std::size_t anch
 
 /// What a tag with more sensors tells besides: now and then a sample of another kind.
 Observation told(const EngineSettings& settings, double time_s, std::size_t anchor, std::uint64_t tag, int noise) {
-    if (settings.fusion.estimator != "inertial_ekf" || noise % 3 != 0) return seen(settings, time_s, anchor, tag, noise);
+    if (settings.fusion.estimator != "inertial_ekf" || noise % 3 != 0)
+        return seen(settings, time_s, anchor, tag, noise);
     if (noise % 9 == 0) return Height{address(tag), 1.2 + 0.001 * noise, unknown_f};
     if (noise % 9 == 3) return WheelSpeed{address(tag), 2 + 0.01 * noise};
     return ImuSample{address(tag), {-2 * std::sin(time_s), -2 * std::cos(time_s), 9.8}, {0, 0, 0.001 * noise}};

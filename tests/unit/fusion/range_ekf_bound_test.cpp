@@ -58,8 +58,8 @@ TEST(RangeEkfBound, WithinATenthOfThePosteriorBound) {
 }
 
 // Issue 4: with 20 % of the paths blocked (0.3 to 1.5 m) no more than 1.5 times the error without. It holds where each
-// range is blocked by itself. Where a path stays blocked for a second, every range of it is wrong alike, and this filter
-// believes it in the end: that is printed, and is for an estimator that keeps account of each anchor's paths.
+// range is blocked by itself. Where a path stays blocked for a second, every range of it is wrong alike, and this
+// filter believes it in the end: that is printed, and is for an estimator that keeps account of each anchor's paths.
 TEST(RangeEkfBound, BlockedPathsCostAtMostHalfAsMuchAgain) {
     for (const BoundTrial& free : {eight_anchors(), four_anchors()}) {
         RangeEkfSettings defaults;
