@@ -3,6 +3,7 @@
 #include "tools/replay/smooth.h"
 
 #include "fusion/geometry/vector.h"
+#include "tests/unit/fusion/engine_fixture.h"
 #include "tools/replay/mirror.h"
 #include "tools/replay/ticker.h"
 
@@ -14,7 +15,7 @@
 namespace locus::replay {
 namespace {
 
-Timestamp at(double time_s) { return timestamp_from_s(time_s); }
+using engine_test::at;
 
 TEST(Mirror, TwiceIsOnce) {
     const Mirror mirror(at(3), at(10));
