@@ -53,6 +53,9 @@ struct WhomItConcerns {
         return one(o.tag, SourceKind::satellite, satellite_address(o));
     }
     Deliveries operator()(const Height& o) const { return one(o.tag, SourceKind::input, this_input()); }
+    Deliveries operator()(const SatelliteRange& o) const {
+        return one(o.tag, SourceKind::satellite, satellite_address(o));
+    }
 };
 
 template <class Numbers>
@@ -84,6 +87,10 @@ struct NumbersAreFinite {
     bool operator()(const SignalStrength& o) const { return std::isfinite(o.rssi_dbm); }
     bool operator()(const GnssNavigation&) const { return true; }
     bool operator()(const Height& o) const { return std::isfinite(o.height_site_m); }
+    bool operator()(const SatelliteRange& o) const {
+        return all_finite(o.satellite_ecef_m) && all_finite(o.satellite_velocity_ecef_mps) &&
+               std::isfinite(o.pseudorange_m) && std::isfinite(o.carrier_m);
+    }
 };
 
 struct ShownValue {
@@ -91,6 +98,7 @@ struct ShownValue {
     double operator()(const RangeDifference& o) const { return o.difference_m; }
     double operator()(const PeerRange& o) const { return o.range_m; }
     double operator()(const GnssRaw& o) const { return o.pseudorange_m; }
+    double operator()(const SatelliteRange& o) const { return o.pseudorange_m; }
     double operator()(const WheelSpeed& o) const { return o.speed_mps; }
     double operator()(const Pressure& o) const { return o.pressure_pa; }
     double operator()(const Height& o) const { return o.height_site_m; }

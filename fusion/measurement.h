@@ -153,6 +153,26 @@ struct GnssRaw {
     std::uint8_t glonass_slot = 0; ///< frequency number + 7
 };
 
+/// One satellite's signal of one epoch with all that is known taken out: what a tightly coupled filter takes, of the
+/// engine (from GnssRaw and ephemerides) or of a recording that gives corrected data. The satellite is where it was
+/// when it sent, in the Earth-fixed frame of the moment of reception (turned by the Earth's rotation during the way),
+/// so a filter adds no Sagnac term: pseudorange = |satellite - receiver| + clock of the receiver.
+struct SatelliteRange {
+    Address tag = no_address;
+    Vec3 satellite_ecef_m{};
+    Vec3f satellite_velocity_ecef_mps{};
+    float range_rate_mps = unknown_f; ///< of the pseudorange, satellite's drift taken out; positive: going away
+    double pseudorange_m = 0;         ///< satellite's clock, group delay, ionosphere and troposphere taken out
+    double carrier_m = 0;             ///< carrier phase, corrected alike, with its unknown constant; 0: none to be used
+    float sigma_m = unknown_f;
+    float sigma_rate_mps = unknown_f;
+    float carrier_to_noise_dbhz = unknown_f;
+    float lock_s = 0;               ///< the carrier is unbroken since; it fell: a slip
+    std::uint8_t constellation = 0; ///< each has a receiver clock of its own, but QZSS that of GPS
+    std::uint8_t satellite = 0;
+    std::uint8_t signal = 0; ///< sigId of u-blox
+};
+
 /// One subframe, page or string that a satellite broadcast, in words as u-blox packs them: GPS, QZSS and BeiDou 30 bits
 /// low in each, Galileo pages and GLONASS strings from the highest bit of the first word on.
 struct GnssNavigation {
@@ -198,13 +218,13 @@ struct SignalStrength {
 
 using Observation =
     std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
-                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height>;
+                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
-    "RANGE",       "RANGE_DIFFERENCE", "ARRIVAL",         "CLOCK_SYNC",      "PEER_RANGE",
-    "IMU",         "FOOT_POINT",       "VISUAL_ODOMETRY", "GNSS_FIX",        "GNSS_RAW",
-    "WHEEL_SPEED", "PRESSURE",         "SIGNAL_STRENGTH", "GNSS_NAVIGATION", "HEIGHT"};
+    "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",     "PEER_RANGE",  "IMU",
+    "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",       "WHEEL_SPEED", "PRESSURE",
+    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

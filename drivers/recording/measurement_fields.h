@@ -119,6 +119,23 @@ void visit_fields(Visitor& visit, Kind& raw) {
     visit.must("glonass_slot", raw.glonass_slot);
 }
 
+template <class Visitor, Of<SatelliteRange> Kind>
+void visit_fields(Visitor& visit, Kind& range) {
+    visit.must("tag", range.tag);
+    visit.must("satellite_ecef_m", range.satellite_ecef_m);
+    visit.must("satellite_velocity_ecef_mps", range.satellite_velocity_ecef_mps);
+    visit.may("range_rate_mps", range.range_rate_mps);
+    visit.must("pseudorange_m", range.pseudorange_m);
+    visit.must("carrier_m", range.carrier_m);
+    visit.may("sigma_m", range.sigma_m);
+    visit.may("sigma_rate_mps", range.sigma_rate_mps);
+    visit.may("carrier_to_noise_dbhz", range.carrier_to_noise_dbhz);
+    visit.must("lock_s", range.lock_s);
+    visit.must("constellation", range.constellation);
+    visit.must("satellite", range.satellite);
+    visit.must("signal", range.signal);
+}
+
 template <class Visitor, Of<WheelSpeed> Kind>
 void visit_fields(Visitor& visit, Kind& wheel) {
     visit.must("tag", wheel.tag);
