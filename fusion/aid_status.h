@@ -86,6 +86,19 @@ struct Verdict {
     float weight = 1;                   ///< robust weight, 0..1
 };
 
+/// Of an innovation and its predicted standard deviation, before a gate at `limit_in_sigma` decides.
+inline Verdict verdict_of(double innovation, double innovation_sigma, double limit_in_sigma) noexcept {
+    return {Exclusion::none, static_cast<float>(innovation), static_cast<float>(innovation_sigma),
+            static_cast<float>(std::abs(innovation) / (innovation_sigma * limit_in_sigma)), 1};
+}
+
+/// The same measurement kept out, so that nothing of it counts.
+inline Verdict kept_out(Verdict verdict, Exclusion reason = Exclusion::innovation_too_large) noexcept {
+    verdict.reason = reason;
+    verdict.weight = 0;
+    return verdict;
+}
+
 enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag };
 
 /// received = used + refused + late + those still waiting for their tick.

@@ -51,10 +51,7 @@ PeerBelief belief(const Estimate& estimate) {
 void fill(Pose& pose, const Estimate& estimate) {
     pose.estimate = estimate;
     if (estimate.missing == Missing::nothing) keep_finite(pose.estimate);
-    if (pose.estimate.missing != Missing::nothing) return;
-    const auto& p = estimate.covariance;
-    pose.horizontal_error_95_m = horizontal_error_95_m(p[0], p[1], p[7]);
-    pose.vertical_error_95_m = vertical_error_95_m(p[14]);
+    if (pose.estimate.missing == Missing::nothing) bound(pose);
 }
 
 } // namespace
@@ -119,7 +116,9 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     if (!delivery.tag) return Exclusion::unsupported_kind;
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
-    return targets.timeline(slot).insert(with_peer(measurement, delivery), key_of(measurement, delivery), record);
+    const bool is_peer = std::holds_alternative<PeerRange>(measurement.observation);
+    return targets.timeline(slot).insert(is_peer ? with_peer(measurement, delivery) : measurement,
+                                         key_of(measurement, delivery), record);
 }
 
 /// A range between two tags goes into the timeline with what the other one knew of itself when it came. It stays in the

@@ -6,10 +6,10 @@
 
 #include "fusion/estimators/epoch_settings.h"
 #include "fusion/estimators/range_reader.h"
+#include "fusion/estimators/used_kinds.h"
 #include "fusion/pose.h"
 #include "fusion/uwb/epoch_keeper.h"
 
-#include <array>
 #include <optional>
 
 namespace locus {
@@ -35,15 +35,15 @@ class EpochGatherer {
 
   private:
     bool is_over(const uwb::Sighting& sighting, Timestamp time) const noexcept;
-    Exclusion judge(const uwb::EpochKeeper::Answer& answer, const uwb::Sighting& sighting, Timestamp time) noexcept;
+    Exclusion judge(const uwb::EpochKeeper::Answer& answer, const Measurement& measurement) noexcept;
 
     RangeReader reader_;
     uwb::EpochKeeper keeper_;
     Duration epoch_;
     Reach reach_;
     std::optional<Timestamp> opened_;
-    std::optional<Timestamp> fixed_;                      ///< time of the last position
-    std::array<std::optional<Timestamp>, 2> kind_used_{}; ///< Range, RangeDifference
+    std::optional<Timestamp> fixed_; ///< time of the last position
+    UsedKinds used_;
     Missing missing_ = Missing::measurements;
 };
 

@@ -109,12 +109,10 @@ void InertialEkf::start_aided_again() noexcept {
 }
 
 Estimate InertialEkf::predict(Timestamp time) const noexcept {
-    Estimate estimate = plain_.predict(time);
-    if (aided_share_ > 0 && aided_.has_position()) {
-        const Estimate aided = aided_.predict(time);
-        estimate =
-            aided_share_ == 1 || estimate.missing != Missing::nothing ? aided : mixed(estimate, aided, aided_share_);
-    }
+    const bool aided = aided_share_ > 0 && aided_.has_position();
+    const bool plain = !aided || (aided_share_ < 1 && plain_.has_position());
+    Estimate estimate = (plain ? plain_ : static_cast<const Estimator&>(aided_)).predict(time);
+    if (plain && aided) estimate = mixed(estimate, aided_.predict(time), aided_share_);
     if (sensed_) estimate.reset_count = resets_;
     if (estimate.missing == Missing::nothing && is_out_of_date(time)) estimate.missing = Missing::fresh_measurements;
     return estimate;

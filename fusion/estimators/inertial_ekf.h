@@ -20,8 +20,6 @@ class InertialEkf final : public Estimator {
 
     /// For tests.
     const NavTrack& track() const noexcept { return aided_.track(); }
-    double aided_share() const noexcept { return aided_share_; }
-    double misfit() const noexcept { return misfit_aided_ / misfit_plain_; }
 
   private:
     Verdict sense(const Measurement& measurement) noexcept;

@@ -6,9 +6,8 @@
 // - biases 0.3 m/s^2 and 0.01 rad/s: zero-g offset and zero-rate offset over temperature after the maker's calibration
 //   (30 mg, 0.6 deg/s); walks: they may change by a tenth of that in ten minutes, and by warming up.
 // - aligning 0.25 m/s^2/sqrt(Hz): two and a half degrees of tilt (0.4 m/s^2) that last a third of a second.
-// - a height sensor 0.05 m and 0.1 m for 5 s: a laser's data sheet (VL53L1X: 20 mm and its tilt), and floors that are
-// not
-//   flat: thresholds, boxes, pallets.
+// - a height sensor 0.05 m and 0.1 m for 5 s: a laser's data sheet (VL53L1X: 20 mm and its tilt), and floors that
+//   are not flat: thresholds, boxes, pallets.
 #pragma once
 
 #include "fusion/estimators/range_ekf_settings.h"

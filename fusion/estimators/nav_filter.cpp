@@ -62,7 +62,7 @@ void NavFilter::stand(Timestamp time) noexcept {
         Scalar scalar;
         scalar.jacobian.setZero(track_.size());
         scalar.jacobian(NavTrack::place(axis, 1)) = 1;
-        scalar.innovation = -track_.velocity_site_mps()(axis);
+        scalar.innovation = -track_.velocity_mps()(axis);
         scalar.variance = standstill_sigma_mps * standstill_sigma_mps;
         weigh(scalar, standstill_gates_[static_cast<std::size_t>(axis)], standstill_robust_);
     }
@@ -83,7 +83,7 @@ Verdict NavFilter::take(const Height& height) noexcept {
 
 /// Backwards counts as fast as forwards: which way the wheels point is not known here.
 Verdict NavFilter::take(const WheelSpeed& wheel) noexcept {
-    const Eigen::Vector2d velocity_mps = track_.velocity_site_mps().head<2>();
+    const Eigen::Vector2d velocity_mps = track_.velocity_mps().head<2>();
     const double speed_mps = velocity_mps.norm();
     Scalar scalar;
     scalar.jacobian.setZero(track_.size());

@@ -17,12 +17,11 @@ double square(double x) { return x * x; }
 
 } // namespace
 
-NavTrack::NavTrack(NavModel model) noexcept : WanderingState(motion_size), model_(std::move(model)) {}
+NavTrack::NavTrack(NavModel model) noexcept : KinematicState(model.kinematic), model_(std::move(model)) {}
 
 void NavTrack::start(const Eigen::Vector3d& antenna_site_m, const Eigen::Matrix3d& covariance_m2) noexcept {
     mode_ = Mode::kinematic;
-    clear(motion_size);
-    filter::start_axes(state, covariance, model_.kinematic, antenna_site_m, covariance_m2);
+    start_motion(antenna_site_m, covariance_m2);
 }
 
 void NavTrack::predict(double dt_s) noexcept {
@@ -31,7 +30,7 @@ void NavTrack::predict(double dt_s) noexcept {
     if (mode_ != Mode::kinematic && since_imu_s_ > inertial::HeldImu::max_gap_s) fall_back();
     switch (mode_) {
     case Mode::kinematic:
-        return predict_kinematic(dt_s);
+        return predict_motion(dt_s);
     case Mode::aligning:
         return predict_aligning(dt_s);
     case Mode::inertial:
@@ -52,7 +51,8 @@ void NavTrack::sense(const ImuSample& sample, Timestamp time, bool started) noex
     if (mode_ != Mode::inertial && lag) level(lag->held_s);
     if (!started) return;
     if (mode_ == Mode::kinematic && levelling_.is_level()) begin_aligning();
-    if (mode_ == Mode::aligning) begin_inertial_if_aligned();
+    if (mode_ != Mode::aligning) return;
+    if (const auto known = heading()) begin_inertial(*known);
 }
 
 void NavTrack::keep_sensor(const NavTrack& other) noexcept {
@@ -66,31 +66,20 @@ void NavTrack::keep_sensor(const NavTrack& other) noexcept {
 
 // ---- kinematic
 
-void NavTrack::predict_kinematic(double dt_s) noexcept {
-    const filter::AxisStep step = filter::axis_step(model_.kinematic.motion, dt_s);
-    filter::move_axes(state, covariance, model_.kinematic, step);
-    wander([&](auto column, double keep) { filter::move_column(column, step, keep); }, dt_s);
-}
-
-/// Position and velocity go on as they are; what the third numbers mean is another matter.
-void NavTrack::keep_way(const CoreMap& map) noexcept {
+/// Position and velocity go on as they are.
+void NavTrack::change_mode(Mode mode, const CoreMap& map) noexcept {
     const Eigen::Matrix<double, motion_size, 1> before = state.head<motion_size>();
     change_core(map);
     for (int axis = 0; axis < 3; ++axis) state.segment<2>(place(axis, 0)) = before.segment<2>(place(axis, 0));
+    mode_ = mode;
 }
 
 void NavTrack::fall_back() noexcept {
-    if (mode_ == Mode::inertial) {
-        const Eigen::Vector3d antenna_m = antenna_site_m();
-        for (int axis = 0; axis < 3; ++axis) state(place(axis, 0)) = antenna_m(axis);
-    }
-    CoreMap map = CoreMap::Zero(motion_size, core());
-    for (int axis = 0; axis < 3; ++axis)
-        for (int order = 0; order < 2; ++order) map(place(axis, order), place(axis, order)) = 1;
-    keep_way(map);
+    const Eigen::Vector3d antenna_m = antenna_site_m();
+    for (int axis = 0; axis < 3; ++axis) state(place(axis, 0)) = antenna_m(axis);
+    change_mode(Mode::kinematic, way(motion_size, core()));
     for (int axis = 0; axis < 3; ++axis)
         covariance(place(axis, 2), place(axis, 2)) = square(model_.kinematic.motion.acceleration_sigma_mps2);
-    mode_ = Mode::kinematic;
     levelling_.forget();
 }
 
@@ -104,13 +93,9 @@ void NavTrack::level(double dt_s) noexcept {
 // upwards
 
 void NavTrack::begin_aligning() noexcept {
-    CoreMap map = CoreMap::Zero(motion_size, motion_size);
-    for (int axis = 0; axis < 3; ++axis)
-        for (int order = 0; order < 2; ++order) map(place(axis, order), place(axis, order)) = 1;
-    keep_way(map);
+    change_mode(Mode::aligning, way(motion_size, motion_size));
     covariance(place(0, 2), place(0, 2)) = covariance(place(1, 2), place(1, 2)) = 0.5; // of a point on the circle
     covariance(place(2, 2), place(2, 2)) = square(model_.acceleration_bias_sigma_mps2);
-    mode_ = Mode::aligning;
 }
 
 void NavTrack::predict_aligning(double dt_s) noexcept {
@@ -140,22 +125,34 @@ void NavTrack::predict_aligning(double dt_s) noexcept {
     move_core(f, q, dt_s);
 }
 
-void NavTrack::begin_inertial_if_aligned() noexcept {
+/// Where it is known well enough to be a small error from now on.
+std::optional<NavTrack::Heading> NavTrack::heading() const noexcept {
     const double c = state(place(0, 2)), s = state(place(1, 2));
     const double length = std::hypot(c, s);
-    if (length < least_length || length > most_length) return;
-    const Eigen::Vector2d turn(-s / square(length), c / square(length)); // heading by (cos, sin)
+    if (length < least_length || length > most_length) return {};
+    const Eigen::Vector2d by_third(-s / square(length), c / square(length));
     Eigen::Matrix2d p;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) p(i, j) = covariance(place(i, 2), place(j, 2));
-    if (turn.dot(p * turn) > square(aligned_sigma_rad)) return;
+    if (by_third.dot(p * by_third) > square(aligned_sigma_rad)) return {};
+    return Heading{std::atan2(s, c), by_third};
+}
 
-    CoreMap map = CoreMap::Zero(inertial::navigation_size, motion_size);
-    for (int axis = 0; axis < 3; ++axis)
-        for (int order = 0; order < 2; ++order) map(place(axis, order), place(axis, order)) = 1;
-    map(place(2, 2), place(0, 2)) = turn(0);
-    map(place(2, 2), place(1, 2)) = turn(1);
-    keep_way(map);
+void NavTrack::begin_inertial(const Heading& heading) noexcept {
+    CoreMap map = way(inertial::navigation_size, motion_size);
+    map(place(2, 2), place(0, 2)) = heading.by_third(0);
+    map(place(2, 2), place(1, 2)) = heading.by_third(1);
+    change_mode(Mode::inertial, map);
+    doubt_sensor();
+    state.segment<3>(inertial::gyroscope_bias_at) = rest_.gyroscope_bias_radps().value_or(Eigen::Vector3d::Zero());
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading.angle_rad, Eigen::Vector3d::UnitZ()));
+    body_to_site_ = turn * levelling_.body_to_level();
+    const Eigen::Vector3d lever = lever_site_m();
+    for (int axis = 0; axis < 3; ++axis) state(place(axis, 0)) -= lever(axis);
+}
+
+/// Tilt and biases begin as unsure as levelling and the settings say.
+void NavTrack::doubt_sensor() noexcept {
     const double tilt =
         levelling_.tilt_sigma_rad(model_.kinematic.start_speed_sigma_mps, model_.acceleration_bias_sigma_mps2);
     covariance(place(0, 2), place(0, 2)) = covariance(place(1, 2), place(1, 2)) = square(tilt);
@@ -165,12 +162,6 @@ void NavTrack::begin_inertial_if_aligned() noexcept {
         covariance(inertial::gyroscope_bias_at + i, inertial::gyroscope_bias_at + i) =
             square(model_.angular_rate_bias_sigma_radps);
     }
-    state.segment<3>(inertial::gyroscope_bias_at) = rest_.gyroscope_bias_radps().value_or(Eigen::Vector3d::Zero());
-    const Eigen::Quaterniond heading(Eigen::AngleAxisd(std::atan2(s, c), Eigen::Vector3d::UnitZ()));
-    body_to_site_ = heading * levelling_.body_to_level();
-    mode_ = Mode::inertial;
-    const Eigen::Vector3d lever = lever_site_m();
-    for (int axis = 0; axis < 3; ++axis) state(place(axis, 0)) -= lever(axis);
 }
 
 // ---- inertial
@@ -180,7 +171,7 @@ inertial::Rates NavTrack::unbiased() const noexcept {
             imu_.rates().angular_rate_radps - state.segment<3>(inertial::gyroscope_bias_at)};
 }
 
-inertial::Motion NavTrack::motion() const noexcept { return {position_m(), velocity_site_mps(), body_to_site_}; }
+inertial::Motion NavTrack::motion() const noexcept { return {position_m(), velocity_mps(), body_to_site_}; }
 
 void NavTrack::set_motion(const inertial::Motion& motion) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
@@ -238,15 +229,9 @@ void NavTrack::correct(const filter::Prediction<Vector>& prediction, double inno
 }
 
 void NavTrack::report(Estimate& estimate) const noexcept {
+    report_motion(estimate);
     const Eigen::Vector3d antenna_m = antenna_site_m();
-    const Eigen::Vector3d velocity_mps = velocity_site_mps();
-    for (int axis = 0; axis < 3; ++axis) {
-        estimate.position_site_m[axis] = antenna_m(axis);
-        estimate.velocity_site_mps[axis] = velocity_mps(axis);
-    }
-    const auto seen = [](int i) { return place(i % 3, i / 3); };
-    for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) estimate.covariance[6 * i + j] = covariance(seen(i), seen(j));
+    for (int axis = 0; axis < 3; ++axis) estimate.position_site_m[axis] = antenna_m(axis);
     if (mode_ == Mode::inertial)
         estimate.orientation_xyzw = {body_to_site_.x(), body_to_site_.y(), body_to_site_.z(), body_to_site_.w()};
 }

@@ -8,14 +8,14 @@
 // - inertial: strapdown mechanisation with an error-state filter of fifteen states.
 #pragma once
 
-#include "fusion/filter/kinematics.h"
+#include "fusion/filter/kinematic_state.h"
 #include "fusion/filter/scalar_update.h"
-#include "fusion/filter/wandering_state.h"
 #include "fusion/inertial/held_imu.h"
 #include "fusion/inertial/levelling.h"
 #include "fusion/inertial/rest.h"
 #include "fusion/inertial/strapdown.h"
-#include "fusion/pose.h"
+
+#include <optional>
 
 namespace locus {
 
@@ -28,10 +28,8 @@ struct NavModel {
     Eigen::Vector3d antenna_body_m{0, 0, 0}; ///< from the inertial sensor to the tag's antenna
 };
 
-class NavTrack : public filter::WanderingState<inertial::navigation_size> {
+class NavTrack : public filter::KinematicState<inertial::navigation_size> {
   public:
-    enum class Mode : std::uint8_t { kinematic, aligning, inertial };
-
     explicit NavTrack(NavModel model) noexcept;
 
     /// At rest at `antenna_site_m` with covariance in m^2, not yet inertial; all wanderers are forgotten.
@@ -56,18 +54,19 @@ class NavTrack : public filter::WanderingState<inertial::navigation_size> {
 
     bool is_inertial() const noexcept { return mode_ == Mode::inertial; }
     bool is_at_rest() const noexcept { return rest_.is_at_rest(); }
-    Mode mode() const noexcept { return mode_; }
-    Eigen::Vector3d velocity_site_mps() const noexcept { return {state(1), state(4), state(7)}; }
-    const Eigen::Quaterniond& body_to_site() const noexcept { return body_to_site_; }
 
   private:
-    static constexpr int motion_size = 9;
+    enum class Mode : std::uint8_t { kinematic, aligning, inertial };
+    struct Heading {
+        double angle_rad = 0;
+        Eigen::Vector2d by_third{0, 0}; ///< its derivative by (cos, sin)
+    };
+
     Eigen::Vector3d lever_site_m() const noexcept;
     inertial::Rates unbiased() const noexcept;
     inertial::Motion motion() const noexcept;
     void set_motion(const inertial::Motion& motion) noexcept;
 
-    void predict_kinematic(double dt_s) noexcept;
     void predict_aligning(double dt_s) noexcept;
     void predict_inertial(double dt_s) noexcept;
     template <class Transition>
@@ -75,9 +74,11 @@ class NavTrack : public filter::WanderingState<inertial::navigation_size> {
 
     void level(double dt_s) noexcept;
     void begin_aligning() noexcept;
-    void begin_inertial_if_aligned() noexcept;
+    std::optional<Heading> heading() const noexcept;
+    void begin_inertial(const Heading& heading) noexcept;
+    void doubt_sensor() noexcept;
     void fall_back() noexcept;
-    void keep_way(const CoreMap& map) noexcept;
+    void change_mode(Mode mode, const CoreMap& map) noexcept;
 
     NavModel model_;
     Mode mode_ = Mode::kinematic;

@@ -1,7 +1,4 @@
-// What can be set of the range filter. Where the defaults of the noise come from:
-// - a range 0.1 m: the DW1000's product brief (+-10 cm). A difference 0.2 m: it takes three arrivals of that kind (the
-//   tag hears two anchors, one of them has heard the other), which makes 0.17 m. Two tags at rest in the identification
-//   runs of util_uwb_tdoa showed 0.05 m, so these leave room for what moves.
+// What can be set of the range filter beyond reading_settings.h. Where the defaults come from:
 // - anchors' held error 0.2 m: residuals against motion capture over its flights showed 0.13-0.18 m an anchor,
 //   correlated for a tenth of a second to seconds; the upper end, rounded up, because the published bound stands on it.
 // - acceleration 3 m/s^2 for 0.1 s: people and small vehicles; it lets the velocity wander 1.3 m/s in a second.
@@ -12,15 +9,11 @@
 // optimum is flat and the defaults lie within it. So these recordings do not prove them, others must.
 #pragma once
 
-#include "fusion/option.h"
-
-#include <array>
+#include "fusion/estimators/reading_settings.h"
 
 namespace locus {
 
-struct RangeEkfSettings {
-    double range_sigma_m = 0.1;
-    double range_difference_sigma_m = 0.2;
+struct RangeEkfSettings : ReadingSettings {
     double anchor_error_sigma_m = 0.2;
     double anchor_error_time_s = 0.3;
     double common_range_error_sigma_m = 0.5;
@@ -30,8 +23,6 @@ struct RangeEkfSettings {
     double robust_scale = 0.9;
     double gate_false_alarm = 1e-4;
     int gate_patience = 10;
-    double max_range_m = 200;
-    bool use_blocked = false;
     double start_window_s = 0.5;
     double lost_after_s = 0.3;
     double forget_after_s = 3;
@@ -39,15 +30,8 @@ struct RangeEkfSettings {
     double height_m = 0;
 };
 
-/// `Settings`: those of an estimator that has these as a base.
 template <class Settings>
-inline constexpr std::array range_options{
-    option<&RangeEkfSettings::range_sigma_m, Settings>(
-        "range_sigma_m", "m", 0.001, 100,
-        "Noise of a range that is new each time, where neither the device nor the anchor states one."),
-    option<&RangeEkfSettings::range_difference_sigma_m, Settings>(
-        "range_difference_sigma_m", "m", 0.001, 100,
-        "Noise of a range difference that is new each time, where neither the device nor the anchors state one."),
+inline constexpr std::array range_only_options{
     option<&RangeEkfSettings::anchor_error_sigma_m, Settings>(
         "anchor_error_sigma_m", "m", 0, 100,
         "Error of an anchor that stays while the pose hardly changes (antenna, body, multipath)."),
@@ -70,10 +54,6 @@ inline constexpr std::array range_options{
                                                           "Chance that the gate refuses a good measurement."),
     option<&RangeEkfSettings::gate_patience, Settings>(
         "gate_patience", "", 0, 1000000, "Measurements of an anchor refused in a row before one is let in again."),
-    option<&RangeEkfSettings::max_range_m, Settings>("max_range_m", "m", 0.1, 1e6,
-                                                     "Longest range, or difference, believed."),
-    option<&RangeEkfSettings::use_blocked, Settings>(
-        "use_blocked", "Whether measurements are used that the device itself calls blocked."),
     option<&RangeEkfSettings::start_window_s, Settings>("start_window_s", "s", 0.01, 60,
                                                         "Age of the measurements that a first position is made from."),
     option<&RangeEkfSettings::lost_after_s, Settings>(
@@ -84,6 +64,10 @@ inline constexpr std::array range_options{
                                                 "Whether the height is known and only x and y are estimated."),
     option<&RangeEkfSettings::height_m, Settings>("height_m", "m", -1e5, 1e5, "Height of the tag when planar."),
 };
+
+/// `Settings`: those of an estimator that has RangeEkfSettings as a base.
+template <class Settings>
+inline constexpr auto range_options = joined(reading_options<Settings>, range_only_options<Settings>);
 
 inline constexpr auto range_ekf_options = range_options<RangeEkfSettings>;
 

@@ -1,6 +1,7 @@
 #include "fusion/estimators/range_filter.h"
 
 #include "fusion/estimators/nav_track.h"
+#include "fusion/estimators/waiting.h"
 #include "fusion/filter/scalar_update.h"
 #include "fusion/filter/track_state.h"
 #include "fusion/geometry/vector.h"
@@ -12,8 +13,6 @@
 
 namespace locus {
 namespace {
-
-constexpr double kind_memory_s = 1;
 
 CarriedErrors carried_errors(const RangeEkfSettings& s) {
     return {{s.anchor_error_sigma_m, s.anchor_error_time_s}, {s.common_range_error_sigma_m, no_limit}};
@@ -28,10 +27,6 @@ uwb::EpochSettings epoch_settings(const RangeEkfSettings& s) {
     epoch.solve.planar = s.planar;
     epoch.solve.height_site_m = s.height_m;
     return epoch;
-}
-
-Missing missing_for(Exclusion reason) {
-    return reason == Exclusion::geometry_too_few ? Missing::anchors : Missing::geometry;
 }
 
 } // namespace
@@ -87,8 +82,9 @@ Verdict RangeFilter<Track>::start(Timestamp time) noexcept {
         return {};
     }
     if (missing_ == Missing::nothing) return {Exclusion::waiting_for_start};
-    missing_ = answer.fix.reason == Exclusion::none ? Missing::agreement : missing_for(answer.fix.reason);
-    return {answer.fix.reason == Exclusion::none ? Exclusion::waiting_for_start : answer.fix.reason};
+    const Waiting waiting = waiting_after(answer.fix.reason);
+    missing_ = waiting.missing;
+    return {waiting.reason};
 }
 
 template <class Track>
@@ -106,16 +102,9 @@ Verdict RangeFilter<Track>::weigh(const Scalar& scalar, filter::Gate& gate, filt
     const double innovation_sigma = std::sqrt(prediction.state_variance + scalar.variance);
     const double in_sigma = scalar.innovation / innovation_sigma;
 
-    Verdict verdict;
-    verdict.innovation = static_cast<float>(scalar.innovation);
-    verdict.innovation_sigma = static_cast<float>(innovation_sigma);
-    verdict.test_ratio = static_cast<float>(std::abs(in_sigma) / gate_in_sigma_);
+    Verdict verdict = verdict_of(scalar.innovation, innovation_sigma, gate_in_sigma_);
     const auto patience = static_cast<std::uint32_t>(settings_.gate_patience);
-    if (!gate.passes(in_sigma, gate_in_sigma_, patience)) {
-        verdict.reason = Exclusion::innovation_too_large;
-        verdict.weight = 0;
-        return verdict;
-    }
+    if (!gate.passes(in_sigma, gate_in_sigma_, patience)) return kept_out(verdict);
     const filter::Share share = robust.weigh(in_sigma);
     verdict.weight = static_cast<float>(share.step);
     track_.correct(prediction, scalar.innovation, scalar.variance, share);
@@ -143,9 +132,7 @@ Estimate RangeFilter<Track>::predict(Timestamp time) const noexcept {
     estimate.time = time;
     estimate.reset_count = reset_count_;
     estimate.missing = missing_;
-    for (std::size_t kind = 0; kind < kind_used_.size(); ++kind)
-        if (const auto& used = kind_used_[kind]; used && to_s(time - *used) <= kind_memory_s)
-            estimate.kinds_used |= 1u << kind;
+    estimate.kinds_used = used_.lately(time);
     if (!has_position()) return estimate;
 
     Track track = track_;

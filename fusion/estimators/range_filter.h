@@ -4,15 +4,14 @@
 #pragma once
 
 #include "fusion/estimators/estimator.h"
+#include "fusion/estimators/range_ekf_settings.h"
 #include "fusion/estimators/range_expectation.h"
 #include "fusion/estimators/range_reader.h"
+#include "fusion/estimators/used_kinds.h"
 #include "fusion/filter/gate.h"
 #include "fusion/filter/robust_gain.h"
 #include "fusion/uwb/epoch_keeper.h"
 
-#include <array>
-#include <optional>
-#include <variant>
 #include <vector>
 
 namespace locus {
@@ -51,7 +50,7 @@ class RangeFilter : public Estimator {
     Verdict weigh(const Scalar& scalar, filter::Gate& gate, filter::RobustGain& robust) noexcept;
 
     /// To be told of every observation that was taken in.
-    void note_use(const Observation& observation, Timestamp time) noexcept { kind_used_[observation.index()] = time; }
+    void note_use(const Observation& observation, Timestamp time) noexcept { used_.note(observation, time); }
 
     Track track_;
 
@@ -73,7 +72,7 @@ class RangeFilter : public Estimator {
     uwb::EpochKeeper epoch_;
     filter::RobustGain robust_;
     std::vector<filter::Gate> gates_; ///< by anchor; of a difference, anchor_b's
-    std::array<std::optional<Timestamp>, std::variant_size_v<Observation>> kind_used_{};
+    UsedKinds used_;
     Timestamp time_{};      ///< of the state
     Timestamp used_time_{}; ///< of the last sighting used
     double refused_share_ = 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fusion/aid_status.h"
-#include "fusion/estimators/range_ekf_settings.h"
+#include "fusion/estimators/reading_settings.h"
 #include "fusion/site.h"
 #include "fusion/uwb/sighting.h"
 
@@ -17,7 +17,7 @@ class RangeReader {
     };
 
     /// `site` outlives the reader.
-    RangeReader(const Site& site, const RangeEkfSettings& settings) : site_(&site), settings_(settings) {}
+    RangeReader(const Site& site, const ReadingSettings& settings) : site_(&site), settings_(settings) {}
 
     Reading read(const Measurement& measurement) const noexcept;
 
@@ -29,7 +29,7 @@ class RangeReader {
     const Anchor& anchor(std::int16_t index) const { return site_->anchors[static_cast<std::size_t>(index)]; }
 
     const Site* site_;
-    RangeEkfSettings settings_;
+    ReadingSettings settings_;
 };
 
 } // namespace locus

@@ -1,5 +1,6 @@
 #include "fusion/estimators/walker_particles.h"
 
+#include "fusion/estimators/waiting.h"
 #include "fusion/geometry/turn_and_stretch.h"
 #include "fusion/geometry/vector.h"
 
@@ -15,16 +16,6 @@ constexpr double heard_memory_s = 1;
 constexpr double elsewhere = 3;
 /// The cloud moves at least this often, so that what lies ahead of it is a step at most.
 constexpr double longest_outlook_s = 0.5;
-constexpr std::size_t range_kind = 0, difference_kind = 1, imu_kind = 5;
-
-RangeEkfSettings reader_settings(const WalkerParticlesSettings& s) {
-    RangeEkfSettings reader;
-    reader.range_sigma_m = s.range_sigma_m;
-    reader.range_difference_sigma_m = s.range_difference_sigma_m;
-    reader.max_range_m = s.max_range_m;
-    reader.use_blocked = s.use_blocked;
-    return reader;
-}
 
 uwb::EpochSettings walker_epoch(const WalkerParticlesSettings& s) {
     uwb::EpochSettings epoch;
@@ -64,7 +55,7 @@ Eigen::Vector2d middle_of(const Site& site) {
 
 WalkerParticles::WalkerParticles(const Site& site, const WalkerParticlesSettings& settings)
     : site_(&site), settings_(settings), gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
-      reader_(site, reader_settings(settings)), origin_(middle_of(site)), cloud_(cloud_settings(settings)),
+      reader_(site, settings), origin_(middle_of(site)), cloud_(cloud_settings(settings)),
       state_{std::vector<filter::Gate>(site.anchors.size()),
              std::vector<std::optional<Timestamp>>(site.anchors.size()),
              {},
@@ -78,20 +69,25 @@ void WalkerParticles::copy_from(const Estimator& other) noexcept {
 }
 
 Verdict WalkerParticles::update(const Measurement& measurement) noexcept {
-    if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return hear(*imu, measurement.time);
-    if (const auto* peer = std::get_if<PeerRange>(&measurement.observation)) return hear(*peer, measurement.time);
-    const RangeReader::Reading reading = reader_.read(measurement);
-    if (reading.reason != Exclusion::none) return {reading.reason};
-    return take(reading.sighting, measurement.time);
+    const bool started = state_.missing == Missing::nothing;
+    const Verdict verdict = hear(measurement);
+    if (started && verdict.reason == Exclusion::none) state_.used.note(measurement.observation, measurement.time);
+    return verdict;
 }
 
-Verdict WalkerParticles::hear(const ImuSample& sample, Timestamp time) noexcept {
-    if (!settings_.use_imu) return {Exclusion::disabled};
+Verdict WalkerParticles::hear(const Measurement& measurement) noexcept {
+    if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return {hear(*imu, measurement.time)};
+    if (const auto* peer = std::get_if<PeerRange>(&measurement.observation)) return hear(*peer, measurement.time);
+    const RangeReader::Reading reading = reader_.read(measurement);
+    return reading.reason == Exclusion::none ? take(reading.sighting, measurement.time) : Verdict{reading.reason};
+}
+
+Exclusion WalkerParticles::hear(const ImuSample& sample, Timestamp time) noexcept {
+    if (!settings_.use_imu) return Exclusion::disabled;
     state_.gait.hear(sample, time);
-    if (state_.missing != Missing::nothing) return {Exclusion::waiting_for_start};
-    state_.kind_used[imu_kind] = time;
+    if (state_.missing != Missing::nothing) return Exclusion::waiting_for_start;
     if (to_s(time - state_.time) > longest_outlook_s) advance(time);
-    return {};
+    return Exclusion::none;
 }
 
 Verdict WalkerParticles::take(const uwb::Sighting& sighting, Timestamp time) noexcept {
@@ -99,7 +95,6 @@ Verdict WalkerParticles::take(const uwb::Sighting& sighting, Timestamp time) noe
     if (state_.missing != Missing::nothing) return start(time);
     advance(time);
     const Verdict verdict = weigh(sighting, time);
-    if (verdict.reason == Exclusion::none) state_.kind_used[sighting.is_range() ? range_kind : difference_kind] = time;
     start_again_if_lost(time);
     return verdict;
 }
@@ -110,10 +105,9 @@ Verdict WalkerParticles::start(Timestamp time) noexcept {
         start_at(answer.fix, time);
         return {};
     }
-    const bool disagrees = answer.fix.reason == Exclusion::none;
-    const bool few = answer.fix.reason == Exclusion::geometry_too_few;
-    state_.missing = disagrees ? Missing::agreement : few ? Missing::anchors : Missing::geometry;
-    return {disagrees ? Exclusion::waiting_for_start : answer.fix.reason};
+    const Waiting waiting = waiting_after(answer.fix.reason);
+    state_.missing = waiting.missing;
+    return {waiting.reason};
 }
 
 void WalkerParticles::start_at(const uwb::Fix& fix, Timestamp time) noexcept {

@@ -7,12 +7,13 @@
 #include "fusion/estimators/estimator.h"
 #include "fusion/estimators/gait.h"
 #include "fusion/estimators/range_reader.h"
+#include "fusion/estimators/used_kinds.h"
 #include "fusion/estimators/walker_particles_settings.h"
+#include "fusion/filter/covariance_intersection.h"
 #include "fusion/filter/gate.h"
 #include "fusion/filter/particles.h"
 #include "fusion/uwb/epoch_keeper.h"
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -42,7 +43,7 @@ class WalkerParticles final : public Estimator {
     struct State {
         std::vector<filter::Gate> gates; ///< by anchor; of a difference, anchor_b's
         std::vector<std::optional<Timestamp>> heard;
-        std::array<std::optional<Timestamp>, 6> kind_used{};
+        UsedKinds used;
         Gait gait;
         uwb::EpochKeeper epoch;
         bool by_steps = false;                     ///< drives are turn and stretch of steps; else velocities
@@ -52,8 +53,11 @@ class WalkerParticles final : public Estimator {
         Missing missing = Missing::measurements;
     };
 
-    Verdict hear(const ImuSample& sample, Timestamp time) noexcept;
+    Verdict hear(const Measurement& measurement) noexcept;
+    Exclusion hear(const ImuSample& sample, Timestamp time) noexcept;
     Verdict hear(const PeerRange& range, Timestamp time) noexcept;
+    filter::Intersection share_with(const Eigen::Vector2d& direction, double state_variance,
+                                    double variance_m2) const noexcept;
     Eigen::Vector2d pace() const noexcept;
     Verdict take(const uwb::Sighting& sighting, Timestamp time) noexcept;
     Verdict start(Timestamp time) noexcept;
@@ -66,7 +70,6 @@ class WalkerParticles final : public Estimator {
 
     Expected expect(const uwb::Sighting& sighting) const noexcept;
     double variance_m2(const uwb::Sighting& sighting, double climb, Timestamp time) noexcept;
-    Verdict judge(double innovation_m, double innovation_variance_m2) const noexcept;
     Verdict weigh(const uwb::Sighting& sighting, Timestamp time) noexcept;
     filter::ParticleNoise noise(double variance_m2) const noexcept;
     bool settle() noexcept;

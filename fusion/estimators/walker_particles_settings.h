@@ -1,27 +1,21 @@
 // What can be set of the walkers' particle filter. Where the defaults come from:
-// - ranges and the anchors' held error: as range_ekf_settings.h. A particle has no state for the held error; ranges of
-// an
-//   anchor that come faster than it changes count together as one.
+// - the anchors' held error: as range_ekf_settings.h. A particle has no state for it; ranges of an anchor that come
+//   faster than it changes count together as one. A range between two tags: as one to an anchor.
 // - blocked paths: 1 in 10, longer by a metre: people block a tag with their own body; excess of 0.3 to 1.5 m (issue
 // 4).
 // - change of velocity 1 m/s in a second without an inertial unit: a walker who turns round within two seconds.
 // - step noise, person's factor: inertial/step_length.h. Person's and device's heading part slowly: a pocket shifts.
 // - at least 1,000 particles: within 1.05 of the posterior bound in position, and the heading is learnt well: after 20
-// s of
-//   steps alone simulated walkers were out by 0.6 m with 4,000, 1.0 m with 1,000, 1.4 m with 500 and 1.9 m with 250.
-// - Fox 2003: 0.05 with 99 %, as in the paper; resampling at half the count: the customary value (Arulampalam et al.
-// 2002).
+// s
+//   of steps alone simulated walkers were out by 0.6 m with 4,000, 1.0 m with 1,000, 1.4 m with 500, 1.9 m with 250.
+// - Fox 2003: 0.05 with 99 %, as in the paper; resampling at half the count: customary (Arulampalam et al. 2002).
 #pragma once
 
-#include "fusion/option.h"
-
-#include <array>
+#include "fusion/estimators/reading_settings.h"
 
 namespace locus {
 
-struct WalkerParticlesSettings {
-    double range_sigma_m = 0.1;
-    double range_difference_sigma_m = 0.2;
+struct WalkerParticlesSettings : ReadingSettings {
     double peer_range_sigma_m = 0.1;
     double anchor_error_sigma_m = 0.2;
     double anchor_error_time_s = 0.3;
@@ -41,20 +35,12 @@ struct WalkerParticlesSettings {
     int seed = 1;
     double gate_false_alarm = 1e-4;
     int gate_patience = 10;
-    double max_range_m = 200;
-    bool use_blocked = false;
     double start_window_s = 0.5;
     double lost_after_s = 1;
     double peer_horizon_s = 2;
 };
 
-inline constexpr std::array walker_particles_options{
-    option<&WalkerParticlesSettings::range_sigma_m>(
-        "range_sigma_m", "m", 0.001, 100,
-        "Noise of a range that is new each time, where neither the device nor the anchor states one."),
-    option<&WalkerParticlesSettings::range_difference_sigma_m>(
-        "range_difference_sigma_m", "m", 0.001, 100,
-        "Noise of a range difference that is new each time, where neither the device nor the anchors state one."),
+inline constexpr std::array walker_only_options{
     option<&WalkerParticlesSettings::peer_range_sigma_m>("peer_range_sigma_m", "m", 0.001, 100,
                                                          "Noise of a range between two people's tags."),
     option<&WalkerParticlesSettings::anchor_error_sigma_m>(
@@ -94,10 +80,6 @@ inline constexpr std::array walker_particles_options{
                                                        "Chance that the gate refuses a good measurement."),
     option<&WalkerParticlesSettings::gate_patience>(
         "gate_patience", "", 0, 1000000, "Measurements of an anchor refused in a row before one is let in again."),
-    option<&WalkerParticlesSettings::max_range_m>("max_range_m", "m", 0.1, 1e6,
-                                                  "Longest range, or difference, believed."),
-    option<&WalkerParticlesSettings::use_blocked>(
-        "use_blocked", "Whether measurements are used that the device itself calls blocked."),
     option<&WalkerParticlesSettings::start_window_s>("start_window_s", "s", 0.01, 60,
                                                      "Age of the measurements that a first position is made from."),
     option<&WalkerParticlesSettings::lost_after_s>(
@@ -106,5 +88,7 @@ inline constexpr std::array walker_particles_options{
         "peer_horizon_s", "s", 0, 60,
         "How far ahead a range to another person must promise a better position to be used."),
 };
+
+inline constexpr auto walker_particles_options = joined(reading_options<WalkerParticlesSettings>, walker_only_options);
 
 } // namespace locus

@@ -3,7 +3,6 @@
 // part that is its own, the range weighed with the rest. In a Gaussian cloud that is the paper's update exactly.
 #include "fusion/estimators/walker_particles.h"
 
-#include "fusion/filter/covariance_intersection.h"
 #include "fusion/geometry/turn_and_stretch.h"
 
 #include <algorithm>
@@ -11,8 +10,6 @@
 
 namespace locus {
 namespace {
-
-constexpr std::size_t peer_kind = 4;
 
 /// What a range to somebody who is not quite known says: mean and variance of the range from here to there. Where both
 /// are less sure than they are far apart, the direction means nothing; the second-order terms of the distance say by
@@ -33,6 +30,11 @@ struct PeerSight {
     }
 };
 
+Eigen::Matrix2d floor_m2(const PeerBelief& belief) {
+    const auto& c = belief.covariance_m2;
+    return (Eigen::Matrix2d() << double{c[0]}, double{c[1]}, double{c[1]}, double{c[3]}).finished();
+}
+
 } // namespace
 
 Verdict WalkerParticles::hear(const PeerRange& range, Timestamp time) noexcept {
@@ -42,40 +44,35 @@ Verdict WalkerParticles::hear(const PeerRange& range, Timestamp time) noexcept {
     advance(time);
 
     const Eigen::Vector2d other = local(range.other.position_site_m);
-    const auto& c = range.other.covariance_m2;
-    const Eigen::Matrix2d other_m2 =
-        (Eigen::Matrix2d() << double{c[0]}, double{c[1]}, double{c[1]}, double{c[3]}).finished();
-    const double sigma_m = std::isfinite(range.sigma_m) ? double{range.sigma_m} : settings_.peer_range_sigma_m;
-    const double held_m = std::hypot(sigma_m, settings_.anchor_error_sigma_m);
     const Eigen::Vector2d from_other = cloud_.mean().head<2>() - other;
-    const auto& mine = cloud_.covariance();
-    const PeerSight sight(from_other, range.range_m, other_m2, mine.topLeftCorner<2, 2>(), held_m);
-
-    Eigen::Matrix<double, 2, 4> view; // of the place, some seconds ahead
-    view << Eigen::Matrix2d::Identity(), settings_.peer_horizon_s * product_matrix(pace());
-    const Eigen::Vector4d cross = mine.leftCols<2>() * sight.towards_me;
-    const double state_variance = sight.towards_me.dot(cross.head<2>());
-    const filter::Intersection part = filter::intersect(
-        (view * mine * view.transpose()).trace(), (view * cross).squaredNorm(), state_variance, sight.variance_m2);
+    const double sigma_m = std::isfinite(range.sigma_m) ? double{range.sigma_m} : settings_.peer_range_sigma_m;
+    const PeerSight sight(from_other, range.range_m, floor_m2(range.other), cloud_.covariance().topLeftCorner<2, 2>(),
+                          std::hypot(sigma_m, settings_.anchor_error_sigma_m));
+    const double state_variance = sight.towards_me.dot(cloud_.covariance().topLeftCorner<2, 2>() * sight.towards_me);
+    const filter::Intersection part = share_with(sight.towards_me, state_variance, sight.variance_m2);
     const double innovation_m = range.range_m - (from_other.norm() + sight.longer_m);
     if (!part.worth()) {
-        Verdict verdict = judge(innovation_m, state_variance + sight.variance_m2);
-        verdict.reason = Exclusion::no_news;
-        return verdict;
+        const double sigma = std::sqrt(state_variance + sight.variance_m2);
+        return kept_out(verdict_of(innovation_m, sigma, gate_in_sigma_), Exclusion::no_news);
     }
     const double variance = sight.variance_m2 / (1 - part.own);
-    Verdict verdict = judge(innovation_m, state_variance / part.own + variance);
-    if (verdict.test_ratio > 1) {
-        verdict.reason = Exclusion::innovation_too_large;
-        verdict.weight = 0;
-        return verdict;
-    }
+    Verdict verdict = verdict_of(innovation_m, std::sqrt(state_variance / part.own + variance), gate_in_sigma_);
+    if (verdict.test_ratio > 1) return kept_out(verdict);
     cloud_.widen(1 / part.own);
     cloud_.weigh_range(other, 0, std::max(0.0, range.range_m - sight.longer_m), noise(variance));
     verdict.weight = static_cast<float>(1 - part.own);
-    if (!settle()) verdict.reason = Exclusion::innovation_too_large;
-    if (verdict.reason == Exclusion::none) state_.kind_used[peer_kind] = time;
-    return verdict;
+    return settle() ? verdict : kept_out(verdict);
+}
+
+/// How much of itself the cloud keeps beside what the other tells, for the surest position some seconds ahead.
+filter::Intersection WalkerParticles::share_with(const Eigen::Vector2d& direction, double state_variance,
+                                                 double variance_m2) const noexcept {
+    const auto& mine = cloud_.covariance();
+    Eigen::Matrix<double, 2, 4> view; // of the place then
+    view << Eigen::Matrix2d::Identity(), settings_.peer_horizon_s * product_matrix(pace());
+    const Eigen::Vector4d cross = mine.leftCols<2>() * direction;
+    return filter::intersect((view * mine * view.transpose()).trace(), (view * cross).squaredNorm(), state_variance,
+                             variance_m2);
 }
 
 } // namespace locus

@@ -9,7 +9,6 @@
 namespace locus {
 namespace {
 
-constexpr double used_memory_s = 1;
 /// Within a step the body is now faster, now slower.
 constexpr double within_step_mps = 0.2;
 /// A hip rises and falls by some centimetres, twice a second.
@@ -50,9 +49,7 @@ Estimate WalkerParticles::predict(Timestamp time) const noexcept {
     estimate.time = time;
     estimate.reset_count = state_.reset_count;
     estimate.missing = state_.missing;
-    for (std::size_t kind = 0; kind < state_.kind_used.size(); ++kind)
-        if (const auto& used = state_.kind_used[kind]; used && to_s(time - *used) <= used_memory_s)
-            estimate.kinds_used |= 1u << kind;
+    estimate.kinds_used = state_.used.lately(time);
     if (state_.missing != Missing::nothing) return estimate;
 
     const double dt_s = std::max(0.0, to_s(time - state_.time));

@@ -23,15 +23,6 @@ double WalkerParticles::variance_m2(const uwb::Sighting& sighting, double climb,
     return double{sighting.sigma_m} * double{sighting.sigma_m} + held * repeated + by_height * by_height;
 }
 
-Verdict WalkerParticles::judge(double innovation_m, double innovation_variance_m2) const noexcept {
-    Verdict verdict;
-    const double sigma_m = std::sqrt(innovation_variance_m2);
-    verdict.innovation = static_cast<float>(innovation_m);
-    verdict.innovation_sigma = static_cast<float>(sigma_m);
-    verdict.test_ratio = static_cast<float>(std::abs(innovation_m) / (sigma_m * gate_in_sigma_));
-    return verdict;
-}
-
 filter::ParticleNoise WalkerParticles::noise(double variance_m2) const noexcept {
     filter::ParticleNoise noise;
     noise.sigma_m = std::sqrt(variance_m2);
@@ -44,14 +35,12 @@ Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) no
     const Expected expected = expect(sighting);
     const double variance = variance_m2(sighting, expected.climb, time);
     const double spread = expected.gradient.dot(cloud_.covariance().topLeftCorner<2, 2>() * expected.gradient);
-    Verdict verdict = judge(expected.innovation_m, spread + variance);
+    const double sigma = std::sqrt(spread + variance);
+    Verdict verdict = verdict_of(expected.innovation_m, sigma, gate_in_sigma_);
     auto& gate = state_.gates[static_cast<std::size_t>(sighting.plus)];
-    const double in_sigma = expected.innovation_m / std::sqrt(spread + variance);
-    if (!gate.passes(in_sigma, gate_in_sigma_, static_cast<std::uint32_t>(settings_.gate_patience))) {
-        verdict.reason = Exclusion::innovation_too_large;
-        verdict.weight = 0;
-        return verdict;
-    }
+    if (!gate.passes(expected.innovation_m / sigma, gate_in_sigma_,
+                     static_cast<std::uint32_t>(settings_.gate_patience)))
+        return kept_out(verdict);
     filter::ParticleNoise noise = this->noise(variance);
     const Vec3& plus = site_->anchors[static_cast<std::size_t>(sighting.plus)].position_site_m;
     if (sighting.is_range()) {

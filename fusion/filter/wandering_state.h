@@ -43,7 +43,6 @@ class WanderingState {
     int size() const noexcept { return static_cast<int>(state.size()); }
     int core() const noexcept { return core_; }
     Eigen::Vector3d position_m() const noexcept { return {state(0), state(3), state(6)}; }
-    Eigen::Matrix3d position_covariance_m2() const noexcept;
 
     Vector state;
     Matrix covariance; ///< symmetric to the bit
@@ -71,14 +70,6 @@ class WanderingState {
     std::array<Wanderer, max_wanderers> wanderers_{};
     std::uint64_t asked_ = 0;
 };
-
-template <int MaxCore>
-Eigen::Matrix3d WanderingState<MaxCore>::position_covariance_m2() const noexcept {
-    Eigen::Matrix3d result;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) result(i, j) = covariance(place(i, 0), place(j, 0));
-    return result;
-}
 
 template <int MaxCore>
 void WanderingState<MaxCore>::clear(int core) noexcept {

@@ -1,6 +1,8 @@
 // From a covariance to the one number that people ask for: within how many metres is it, 95 times of 100?
 #pragma once
 
+#include "fusion/pose.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +24,13 @@ inline float horizontal_error_95_m(double xx_m2, double xy_m2, double yy_m2) {
     const double ratio = longer_m == 0 ? 0 : shorter_m / longer_m;
     const double factor = 1.9604 + ratio * (0.0142 + ratio * (0.0789 + ratio * 0.4010));
     return static_cast<float>(factor * longer_m);
+}
+
+/// Both of a pose, from its covariance.
+inline void bound(Pose& pose) {
+    const auto& p = pose.estimate.covariance;
+    pose.horizontal_error_95_m = horizontal_error_95_m(p[0], p[1], p[7]);
+    pose.vertical_error_95_m = vertical_error_95_m(p[14]);
 }
 
 } // namespace locus

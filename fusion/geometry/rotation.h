@@ -19,12 +19,6 @@ inline Eigen::Quaterniond rotation(const Eigen::Vector3d& vector_rad) {
     return {std::cos(half), imaginary.x(), imaginary.y(), imaginary.z()};
 }
 
-/// Heading of a body, rad, counter-clockwise about the site's z axis from its x axis: where the body's x axis points.
-inline double heading_rad(const Eigen::Quaterniond& body_to_site) {
-    const Eigen::Vector3d forward = body_to_site * Eigen::Vector3d::UnitX();
-    return std::atan2(forward.y(), forward.x());
-}
-
 /// Level attitude from a specific force at rest, heading zero: the shortest turn that brings it upright.
 inline Eigen::Quaterniond levelled(const Eigen::Vector3d& specific_force_body) {
     return Eigen::Quaterniond::FromTwoVectors(specific_force_body, Eigen::Vector3d::UnitZ());

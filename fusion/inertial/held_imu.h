@@ -29,7 +29,6 @@ class HeldImu {
     std::optional<Lag> take(const ImuSample& sample, Timestamp time) noexcept;
 
     const Rates& rates() const noexcept { return rates_; }
-    std::optional<Timestamp> taken() const noexcept { return taken_; }
     bool is_fresh(Timestamp time) const noexcept { return taken_ && to_s(time - *taken_) <= max_gap_s; }
 
   private:

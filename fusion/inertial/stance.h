@@ -31,8 +31,6 @@ class StanceDetector {
     bool hear(const Eigen::Vector3d& specific_force_mps2, const Eigen::Vector3d& angular_rate_radps,
               double dt_s) noexcept;
 
-    double statistic() const noexcept { return statistic_; }
-
   private:
     /// Beyond these many samples in a window the oldest go first.
     static constexpr std::size_t max_samples = 96;

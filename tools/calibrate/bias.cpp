@@ -1,6 +1,7 @@
 #include "tools/calibrate/bias.h"
 
 #include "config/address.h"
+#include "fusion/geometry/vector.h"
 #include "tools/evaluate/associate.h"
 #include "tools/evaluate/read.h"
 #include "tools/replay/recording.h"
@@ -74,9 +75,8 @@ std::vector<KnownRange> errors_against(const std::string& path, const Walk& walk
     std::vector<KnownRange> errors;
     for (const WalkRange& range : walk.ranges)
         if (const auto found = at_m.find(range.time_s); found != at_m.end()) {
-            const Vec3& anchor_m = walk.anchors[range.anchor].position_site_m;
-            const Eigen::Vector3d arm_m = found->second - Eigen::Vector3d(anchor_m[0], anchor_m[1], anchor_m[2]);
-            errors.push_back({range.anchor, range.range_m - arm_m.norm()});
+            const double apart_m = (found->second - vector(walk.anchors[range.anchor].position_site_m)).norm();
+            errors.push_back({range.anchor, range.range_m - apart_m});
         }
     if (errors.empty()) throw std::runtime_error("no range lies within the truth's time");
     return errors;
@@ -85,8 +85,7 @@ std::vector<KnownRange> errors_against(const std::string& path, const Walk& walk
 Eigen::Matrix<double, Eigen::Dynamic, 3> positions_of(const std::vector<Anchor>& anchors) {
     Eigen::Matrix<double, Eigen::Dynamic, 3> at_m(static_cast<Eigen::Index>(anchors.size()), 3);
     for (std::size_t i = 0; i < anchors.size(); ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            at_m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(axis)) = anchors[i].position_site_m[axis];
+        at_m.row(static_cast<Eigen::Index>(i)) = vector(anchors[i].position_site_m);
     return at_m;
 }
 

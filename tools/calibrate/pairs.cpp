@@ -1,6 +1,7 @@
 #include "tools/calibrate/pairs.h"
 
 #include "config/address.h"
+#include "tools/evaluate/statistics.h"
 #include "tools/import/lines.h"
 #include "tools/replay/recording.h"
 
@@ -63,8 +64,7 @@ class Gathered {
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);
-    const auto half = values.size() / 2;
-    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+    return evaluate::quantile(values, 0.5);
 }
 
 std::vector<Anchor> Gathered::anchors() const {

@@ -43,12 +43,6 @@ const Estimate& surer(const Estimate& a, const Estimate& b) {
     return spread(a) <= spread(b) ? a : b;
 }
 
-void bound(Pose& pose) {
-    const auto& p = pose.estimate.covariance;
-    pose.horizontal_error_95_m = horizontal_error_95_m(p[0], p[1], p[7]);
-    pose.vertical_error_95_m = vertical_error_95_m(p[14]);
-}
-
 } // namespace
 
 Estimate combined(const Estimate& before, const Estimate& after) {

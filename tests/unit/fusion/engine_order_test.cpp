@@ -159,7 +159,7 @@ TEST_P(EngineOrder, PosesAreThoseOfInOrderArrivalAtEveryTick) {
         positions += check_every_tick(settings,
                                       by_arrival(*rc::gen::container<std::vector<Arriving>>(size, arriving(settings))));
     }));
-    EXPECT_GT(positions, 1000); // there was something to compare
+    EXPECT_GT(positions, 200); // there was something to compare; chance gives about a thousand
 }
 
 TEST_P(EngineOrder, CountersDoNotKnowTheOrderEither) {
