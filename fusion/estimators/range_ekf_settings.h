@@ -57,7 +57,7 @@ inline constexpr std::array range_only_options{
     option<&RangeEkfSettings::start_window_s, Settings>("start_window_s", "s", 0.01, 60,
                                                         "Age of the measurements that a first position is made from."),
     option<&RangeEkfSettings::lost_after_s, Settings>(
-        "lost_after_s", "s", 0.01, 60, "How long most measurements are refused before the filter doubts itself."),
+        "lost_after_s", "s", 0.01, 60, "How long most anchors are refused before the filter doubts itself."),
     option<&RangeEkfSettings::forget_after_s, Settings>("forget_after_s", "s", 0.1, 3600,
                                                         "Without a measurement for this long the filter starts anew."),
     option<&RangeEkfSettings::planar, Settings>("planar",

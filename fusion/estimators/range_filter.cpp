@@ -58,19 +58,16 @@ Verdict RangeFilter<Track>::take(const uwb::Sighting& sighting, const Measuremen
     const bool forgotten = has_position() && to_s(time - used_time_) > forget_after_s_;
     if (!has_position() || forgotten) return start(time);
 
-    const double dt_s = to_s(time - time_);
     move_to(time);
     const RangeExpectation<Track> expected = expect(sighting, *site_, errors_, track_);
     const double variance = double{sighting.sigma_m} * double{sighting.sigma_m};
-    const Verdict verdict = weigh({expected.innovation_m, expected.jacobian, variance},
-                                  gates_[static_cast<std::size_t>(sighting.plus)], robust_);
-    count_refusal(verdict.reason != Exclusion::none, dt_s);
+    const Verdict verdict =
+        weigh({expected.innovation_m, expected.jacobian, variance}, gates_.gate(sighting.plus, time), robust_);
     if (verdict.reason == Exclusion::none) {
         used_time_ = time;
         note_use(measurement.observation, time);
-    } else {
-        start_again_if_lost(time);
     }
+    start_again_if_lost(time);
     return verdict;
 }
 
@@ -92,7 +89,7 @@ void RangeFilter<Track>::start_at(const uwb::Fix& fix, Timestamp time) noexcept 
     if (missing_ == Missing::nothing) ++reset_count_;
     track_.start(vector(fix.position_site_m), Eigen::Matrix3d(fix.covariance_m2.data()));
     time_ = used_time_ = time;
-    refused_share_ = 0;
+    gates_.begin_anew();
     missing_ = Missing::nothing;
 }
 
@@ -111,17 +108,11 @@ Verdict RangeFilter<Track>::weigh(const Scalar& scalar, filter::Gate& gate, filt
     return verdict;
 }
 
-template <class Track>
-void RangeFilter<Track>::count_refusal(bool refused, double dt_s) noexcept {
-    const double fresh = -std::expm1(-dt_s / settings_.lost_after_s);
-    refused_share_ += fresh * ((refused ? 1.0 : 0.0) - refused_share_);
-}
-
-/// Most measurements refused may mean a bad site or a filter in the wrong place: it moves only when the last window
+/// Most anchors refused may mean a bad site or a filter in the wrong place: it moves only when the last window
 /// agrees on a place and fits there far better than here.
 template <class Track>
 void RangeFilter<Track>::start_again_if_lost(Timestamp time) noexcept {
-    if (refused_share_ < 0.5) return;
+    if (!gates_.most_in_doubt(time, settings_.lost_after_s)) return;
     const uwb::EpochKeeper::Answer answer = epoch_.solve(time, track_.antenna_site_m());
     if (answer.agrees && answer.cost_of_other - answer.fix.cost > start_anew_cost_) start_at(answer.fix, time);
 }

@@ -8,11 +8,9 @@
 #include "fusion/estimators/range_expectation.h"
 #include "fusion/estimators/range_reader.h"
 #include "fusion/estimators/used_kinds.h"
-#include "fusion/filter/gate.h"
+#include "fusion/filter/anchor_gates.h"
 #include "fusion/filter/robust_gain.h"
 #include "fusion/uwb/epoch_keeper.h"
-
-#include <vector>
 
 namespace locus {
 
@@ -57,7 +55,6 @@ class RangeFilter : public Estimator {
   private:
     Verdict take(const uwb::Sighting& sighting, const Measurement& measurement) noexcept;
     Verdict start(Timestamp time) noexcept;
-    void count_refusal(bool refused, double dt_s) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
     void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
 
@@ -71,11 +68,10 @@ class RangeFilter : public Estimator {
     CarriedErrors errors_;
     uwb::EpochKeeper epoch_;
     filter::RobustGain robust_;
-    std::vector<filter::Gate> gates_; ///< by anchor; of a difference, anchor_b's
+    filter::AnchorGates gates_; ///< of a difference, anchor_b's
     UsedKinds used_;
     Timestamp time_{};      ///< of the state
     Timestamp used_time_{}; ///< of the last sighting used
-    double refused_share_ = 0;
     std::uint32_t reset_count_ = 0;
     Missing missing_ = Missing::measurements;
 };

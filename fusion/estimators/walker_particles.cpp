@@ -11,7 +11,6 @@
 namespace locus {
 namespace {
 
-constexpr double heard_memory_s = 1;
 /// Blocked paths make a fix that is wrong by about their excess; only what is this many times farther off is elsewhere.
 constexpr double elsewhere = 3;
 /// The cloud moves at least this often, so that what lies ahead of it is a step at most.
@@ -56,7 +55,7 @@ Eigen::Vector2d middle_of(const Site& site) {
 WalkerParticles::WalkerParticles(const Site& site, const WalkerParticlesSettings& settings)
     : site_(&site), settings_(settings), gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
       reader_(site, settings), origin_(middle_of(site)), cloud_(cloud_settings(settings)),
-      state_{std::vector<filter::Gate>(site.anchors.size()),
+      state_{filter::AnchorGates(site.anchors.size()),
              std::vector<std::optional<Timestamp>>(site.anchors.size()),
              {},
              Gait(gait_settings(settings)),
@@ -125,7 +124,7 @@ void WalkerParticles::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
     cloud_.settle();
     state_.gait.take();
     state_.time = time;
-    state_.doubtful_since.reset();
+    state_.gates.begin_anew();
     state_.missing = Missing::nothing;
 }
 
@@ -185,26 +184,10 @@ bool WalkerParticles::settle() noexcept {
     return alive;
 }
 
-bool WalkerParticles::most_refuse(Timestamp time) const noexcept {
-    int heard = 0, refused = 0;
-    for (std::size_t i = 0; i < state_.gates.size(); ++i) {
-        const auto& last = state_.heard[i];
-        if (!last || to_s(time - *last) > heard_memory_s) continue;
-        ++heard;
-        refused += state_.gates[i].refused_in_a_row() > 0 ? 1 : 0;
-    }
-    return 2 * refused > heard;
-}
-
 /// Most anchors refused may mean a bad site or a cloud in the wrong place: it moves only when the last window agrees on
 /// a place and fits there far better than here.
 void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
-    if (!most_refuse(time)) {
-        state_.doubtful_since.reset();
-        return;
-    }
-    if (!state_.doubtful_since) state_.doubtful_since = time;
-    if (to_s(time - *state_.doubtful_since) < settings_.lost_after_s) return;
+    if (!state_.gates.most_in_doubt(time, settings_.lost_after_s)) return;
     const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
     const double away_m = (local(answer.fix.position_site_m) - cloud_.mean().head<2>()).norm();
     const bool better = answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_;

@@ -9,8 +9,8 @@
 #include "fusion/estimators/range_reader.h"
 #include "fusion/estimators/used_kinds.h"
 #include "fusion/estimators/walker_particles_settings.h"
+#include "fusion/filter/anchor_gates.h"
 #include "fusion/filter/covariance_intersection.h"
-#include "fusion/filter/gate.h"
 #include "fusion/filter/particles.h"
 #include "fusion/uwb/epoch_keeper.h"
 
@@ -41,14 +41,13 @@ class WalkerParticles final : public Estimator {
 
     /// All but the cloud, whose copy leaves out what no one will read.
     struct State {
-        std::vector<filter::Gate> gates; ///< by anchor; of a difference, anchor_b's
+        filter::AnchorGates gates; ///< of a difference, anchor_b's
         std::vector<std::optional<Timestamp>> heard;
         UsedKinds used;
         Gait gait;
         uwb::EpochKeeper epoch;
-        bool by_steps = false;                     ///< drives are turn and stretch of steps; else velocities
-        Timestamp time{};                          ///< of the cloud
-        std::optional<Timestamp> doubtful_since{}; ///< most anchors have been refused since
+        bool by_steps = false; ///< drives are turn and stretch of steps; else velocities
+        Timestamp time{};      ///< of the cloud
         std::uint32_t reset_count = 0;
         Missing missing = Missing::measurements;
     };
@@ -73,7 +72,6 @@ class WalkerParticles final : public Estimator {
     Verdict weigh(const uwb::Sighting& sighting, Timestamp time) noexcept;
     filter::ParticleNoise noise(double variance_m2) const noexcept;
     bool settle() noexcept;
-    bool most_refuse(Timestamp time) const noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
 
     Eigen::Vector2d local(const Vec3& site_m) const noexcept {

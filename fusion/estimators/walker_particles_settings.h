@@ -83,7 +83,7 @@ inline constexpr std::array walker_only_options{
     option<&WalkerParticlesSettings::start_window_s>("start_window_s", "s", 0.01, 60,
                                                      "Age of the measurements that a first position is made from."),
     option<&WalkerParticlesSettings::lost_after_s>(
-        "lost_after_s", "s", 0.01, 60, "How long most measurements are refused before the filter doubts itself."),
+        "lost_after_s", "s", 0.01, 60, "How long most anchors are refused before the filter doubts itself."),
     option<&WalkerParticlesSettings::peer_horizon_s>(
         "peer_horizon_s", "s", 0, 60,
         "How far ahead a range to another person must promise a better position to be used."),

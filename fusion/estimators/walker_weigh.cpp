@@ -37,7 +37,7 @@ Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) no
     const double spread = expected.gradient.dot(cloud_.covariance().topLeftCorner<2, 2>() * expected.gradient);
     const double sigma = std::sqrt(spread + variance);
     Verdict verdict = verdict_of(expected.innovation_m, sigma, gate_in_sigma_);
-    auto& gate = state_.gates[static_cast<std::size_t>(sighting.plus)];
+    auto& gate = state_.gates.gate(sighting.plus, time);
     if (!gate.passes(expected.innovation_m / sigma, gate_in_sigma_,
                      static_cast<std::uint32_t>(settings_.gate_patience)))
         return kept_out(verdict);

@@ -14,6 +14,7 @@ double gate_in_sigma(double false_alarm) {
 bool Gate::passes(double innovation_in_sigma, double limit_in_sigma, std::uint32_t patience) noexcept {
     const bool good = std::abs(innovation_in_sigma) <= limit_in_sigma;
     const bool reopened = !good && refused_ >= patience;
+    in_doubt_ = !good;
     refused_ = good || reopened ? 0 : refused_ + 1;
     return good || reopened;
 }

@@ -16,9 +16,12 @@ class Gate {
   public:
     bool passes(double innovation_in_sigma, double limit_in_sigma, std::uint32_t patience) noexcept;
     std::uint32_t refused_in_a_row() const noexcept { return refused_; }
+    /// Since it refused one, none has passed but by patience.
+    bool is_in_doubt() const noexcept { return in_doubt_; }
 
   private:
     std::uint32_t refused_ = 0;
+    bool in_doubt_ = false;
 };
 
 } // namespace locus::filter
