@@ -8,8 +8,10 @@
 namespace locus {
 namespace {
 
-/// Anchors are called by their index; this is the error that all ranges have in common.
+/// An anchor's passing error is called by its index; these are the error that all ranges have in common, and an
+/// anchor's offset. -2 is the height sensor's (nav_filter.cpp).
 constexpr std::int32_t common_range_error = -1;
+constexpr std::int32_t offset_of(std::int16_t anchor) { return -3 - anchor; }
 
 struct Carried {
     int place = -1; ///< in the state; -1: there is none
@@ -26,9 +28,12 @@ Carried carried(std::int32_t key, double sign, const filter::WanderModel& model,
 template <class Track>
 RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
                                Track& track) noexcept {
+    const bool alone = sighting.is_range();
     const std::array all{carried(sighting.plus, 1, errors.anchor, track),
-                         sighting.is_range() ? carried(common_range_error, 1, errors.common, track)
-                                             : carried(sighting.minus, -1, errors.anchor, track)};
+                         alone ? carried(common_range_error, 1, errors.common, track)
+                               : carried(sighting.minus, -1, errors.anchor, track),
+                         carried(offset_of(sighting.plus), 1, errors.offset, track),
+                         alone ? Carried{} : carried(offset_of(sighting.minus), -1, errors.offset, track)};
     RangeExpectation<Track> expectation;
     expectation.jacobian.setZero(track.size());
     const Eigen::Vector3d antenna_site_m = track.antenna_site_m();

@@ -9,7 +9,8 @@ namespace locus {
 
 /// A sigma of zero: there is no such error.
 struct CarriedErrors {
-    filter::WanderModel anchor; ///< of each anchor
+    filter::WanderModel anchor; ///< of each anchor, soon another
+    filter::WanderModel offset; ///< of each anchor, for good or nearly so
     filter::WanderModel common; ///< of all ranges alike; differences are free of it
 };
 

@@ -15,7 +15,9 @@ namespace locus {
 namespace {
 
 CarriedErrors carried_errors(const RangeEkfSettings& s) {
-    return {{s.anchor_error_sigma_m, s.anchor_error_time_s}, {s.common_range_error_sigma_m, no_limit}};
+    return {{s.anchor_error_sigma_m, s.anchor_error_time_s},
+            {s.anchor_offset_sigma_m, s.anchor_offset_time_s},
+            {s.common_range_error_sigma_m, no_limit}};
 }
 
 uwb::EpochSettings epoch_settings(const RangeEkfSettings& s) {

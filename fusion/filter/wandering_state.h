@@ -25,7 +25,7 @@ struct WanderModel {
 template <int MaxCore>
 class WanderingState {
   public:
-    static constexpr int max_wanderers = 12;
+    static constexpr int max_wanderers = 24;
     static constexpr int max_size = MaxCore + max_wanderers;
     using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
