@@ -25,6 +25,7 @@ struct InertialEkfSettings : RangeEkfSettings {
     double angular_rate_bias_walk_radps_rts = 0.0005;
     double aligning_noise_mps2_rthz = 0.25;
     bool zero_velocity = true;
+    bool foot_mounted = false;
     double dead_reckoning_s = 10;
     double height_sigma_m = 0.05;
     double height_error_sigma_m = 0.1;
@@ -57,6 +58,8 @@ inline constexpr std::array inertial_only_options{
         "Noise of the acceleration while the sensor's heading is being found; tilt errors included."),
     option<&InertialEkfSettings::zero_velocity>(
         "zero_velocity", "Whether a sensor that lies still means that the target stands; not for lifts."),
+    option<&InertialEkfSettings::foot_mounted>(
+        "foot_mounted", "Whether the sensor is worn on a foot, which stands still in every step (zero_velocity too)."),
     option<&InertialEkfSettings::dead_reckoning_s>(
         "dead_reckoning_s", "s", 0, 3600, "How long the inertial sensor alone carries a pose, without any range."),
     option<&InertialEkfSettings::height_sigma_m>("height_sigma_m", "m", 0.001, 100,

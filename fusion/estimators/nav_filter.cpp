@@ -16,12 +16,18 @@ NavModel nav_model(const InertialEkfSettings& s) {
     model.acceleration_bias_sigma_mps2 = s.acceleration_bias_sigma_mps2;
     model.angular_rate_bias_sigma_radps = s.angular_rate_bias_sigma_radps;
     model.aligning_noise_mps2_rthz = s.aligning_noise_mps2_rthz;
+    model.foot_mounted = s.foot_mounted;
     model.antenna_body_m = vector(s.antenna_body_m);
     return model;
 }
 
-constexpr Duration standstill_period = std::chrono::milliseconds{100}; ///< what is seen more often is no news
-constexpr double standstill_sigma_mps = 0.05;                          ///< somebody who stands sways
+/// How still what stands is, and how soon its next look is news: somebody who stands sways slowly; a foot in mid-stance
+/// rolls by a centimetre (Skog et al. 2010, stance.h) and is gone after a third of a second.
+struct Standstill {
+    double sigma_mps;
+    Duration period;
+};
+constexpr Standstill whole_body{0.05, std::chrono::milliseconds{100}}, foot{0.03, std::chrono::milliseconds{20}};
 constexpr double least_speed_mps = 0.01;
 
 double variance(float stated_sigma, double otherwise) {
@@ -51,19 +57,22 @@ Verdict NavFilter::update(const Measurement& measurement) noexcept {
 Verdict NavFilter::take(const ImuSample& sample, Timestamp time) noexcept {
     if (has_position()) move_to(time);
     track_.sense(sample, time, has_position());
-    if (settings_.zero_velocity && track_.is_inertial() && track_.is_at_rest() && time - stood_ >= standstill_period)
-        stand(time);
+    const bool may = track_.is_inertial() || (settings_.foot_mounted && has_position());
+    const bool stands = settings_.zero_velocity && may && track_.is_at_rest();
+    const Standstill& still = settings_.foot_mounted ? foot : whole_body;
+    if (!stands || time - stood_ < still.period) return {};
+    stood_ = time;
+    stand(still.sigma_mps);
     return {};
 }
 
-void NavFilter::stand(Timestamp time) noexcept {
-    stood_ = time;
+void NavFilter::stand(double sigma_mps) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
         Scalar scalar;
         scalar.jacobian.setZero(track_.size());
         scalar.jacobian(NavTrack::place(axis, 1)) = 1;
         scalar.innovation = -track_.velocity_mps()(axis);
-        scalar.variance = standstill_sigma_mps * standstill_sigma_mps;
+        scalar.variance = sigma_mps * sigma_mps;
         weigh(scalar, standstill_gates_[static_cast<std::size_t>(axis)], standstill_robust_);
     }
 }

@@ -27,7 +27,7 @@ class NavFilter final : public RangeFilter<NavTrack> {
 
   private:
     Verdict take(const ImuSample& sample, Timestamp time) noexcept;
-    void stand(Timestamp time) noexcept;
+    void stand(double sigma_mps) noexcept;
     Verdict take(const Height& height) noexcept;
     Verdict take(const WheelSpeed& wheel) noexcept;
 

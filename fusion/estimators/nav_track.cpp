@@ -48,11 +48,17 @@ void NavTrack::sense(const ImuSample& sample, Timestamp time, bool started) noex
         set_motion(now);
     }
     if (lag) rest_.carry(imu_.rates(), lag->held_s);
+    if (model_.foot_mounted) step(lag ? lag->held_s : inertial::HeldImu::max_gap_s);
     if (mode_ != Mode::inertial && lag) level(lag->held_s);
     if (!started) return;
     if (mode_ == Mode::kinematic && levelling_.is_level()) begin_aligning();
     if (mode_ != Mode::aligning) return;
     if (const auto known = heading()) begin_inertial(*known);
+}
+
+void NavTrack::step(double dt_s) noexcept {
+    const Eigen::Vector3d bias = rest_.gyroscope_bias_radps().value_or(Eigen::Vector3d::Zero());
+    stands_ = stance_.hear(imu_.rates().specific_force_mps2, imu_.rates().angular_rate_radps - bias, dt_s);
 }
 
 void NavTrack::keep_sensor(const NavTrack& other) noexcept {
@@ -61,6 +67,8 @@ void NavTrack::keep_sensor(const NavTrack& other) noexcept {
     since_imu_s_ = other.since_imu_s_;
     levelling_ = other.levelling_;
     rest_ = other.rest_;
+    stance_ = other.stance_;
+    stands_ = other.stands_;
     if (other.mode_ == Mode::inertial) levelling_.continue_from(other.body_to_site_);
 }
 

@@ -13,6 +13,7 @@
 #include "fusion/inertial/held_imu.h"
 #include "fusion/inertial/levelling.h"
 #include "fusion/inertial/rest.h"
+#include "fusion/inertial/stance.h"
 #include "fusion/inertial/strapdown.h"
 
 #include <optional>
@@ -25,6 +26,7 @@ struct NavModel {
     double acceleration_bias_sigma_mps2 = 0;
     double angular_rate_bias_sigma_radps = 0;
     double aligning_noise_mps2_rthz = 0;
+    bool foot_mounted = false;               ///< the sensor stands still in every step, not only when its wearer does
     Eigen::Vector3d antenna_body_m{0, 0, 0}; ///< from the inertial sensor to the tag's antenna
 };
 
@@ -53,7 +55,7 @@ class NavTrack : public filter::KinematicState<inertial::navigation_size> {
     void keep_sensor(const NavTrack& other) noexcept;
 
     bool is_inertial() const noexcept { return mode_ == Mode::inertial; }
-    bool is_at_rest() const noexcept { return rest_.is_at_rest(); }
+    bool is_at_rest() const noexcept { return model_.foot_mounted ? stands_ : rest_.is_at_rest(); }
 
   private:
     enum class Mode : std::uint8_t { kinematic, aligning, inertial };
@@ -73,6 +75,7 @@ class NavTrack : public filter::KinematicState<inertial::navigation_size> {
     void move_core(const Transition& transition, const Transition& noise, double dt_s) noexcept;
 
     void level(double dt_s) noexcept;
+    void step(double dt_s) noexcept;
     void begin_aligning() noexcept;
     std::optional<Heading> heading() const noexcept;
     void begin_inertial(const Heading& heading) noexcept;
@@ -85,6 +88,8 @@ class NavTrack : public filter::KinematicState<inertial::navigation_size> {
     inertial::HeldImu imu_;
     inertial::Levelling levelling_;
     inertial::Rest rest_;
+    inertial::StanceDetector stance_{inertial::foot_stance};
+    bool stands_ = false; ///< the foot, as of the last sample
     double since_imu_s_ = 0;
     Eigen::Quaterniond body_to_site_ = Eigen::Quaterniond::Identity(); ///< in inertial mode
 };

@@ -62,6 +62,8 @@ constexpr Recording recordings[]{
     {"Drone2", "iasl_uwb_imu", "iasl_uwb_imu", "scenario2", "scenario2", ".truth.tum", 0.21, none, quick},
     {"YardClear1", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "LOS/Trajectory_A/Case_1", "LOS_Trajectory_A_Case_1",
      ".truth.tum", none, 1.038, "published least squares, the better of the two"},
+    {"YardClear2", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "LOS/Trajectory_A/Case_2", "LOS_Trajectory_A_Case_2",
+     ".truth.tum", none, 0.78, quick},
     {"YardBlocked1", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "NLOS/Trajectory_A/Case_1",
      "NLOS_Trajectory_A_Case_1", ".truth.tum", none, 0.938, "published error-state filter"},
     {"YardBlocked2", "hanyang_uwb_outdoor", "hanyang_uwb_outdoor", "NLOS/Trajectory_A/Case_2",
