@@ -80,6 +80,12 @@ void FusionLoop::publish_poses(Timestamp tick) noexcept {
         item.pose.published = published;
         output_.poses.push(item);
     }
+    item.smoothed = true;
+    for (const Pose& pose : plan_->engine->smoothed()) {
+        item.pose = pose;
+        item.pose.published = published;
+        output_.poses.push(item);
+    }
     positions_.store(positions, std::memory_order_relaxed);
 }
 

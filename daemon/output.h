@@ -14,6 +14,7 @@ using Generation = std::uint32_t;
 struct PoseItem {
     Generation generation = 0;
     Pose pose;
+    bool smoothed = false; ///< of smooth_lag_s ago
 };
 
 struct SourceItem {

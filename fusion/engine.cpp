@@ -1,6 +1,7 @@
 #include "fusion/engine.h"
 
 #include "fusion/aid_book.h"
+#include "fusion/filter/fixed_lag.h"
 #include "fusion/fresh_estimators.h"
 #include "fusion/geometry/error_bound.h"
 #include "fusion/identity.h"
@@ -61,7 +62,13 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
         : settings(std::move(given)), window(duration_from_s(settings.fusion.window_s)), fresh(settings),
           targets(settings, fresh), book(settings.site),
           clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)) {
-        poses.reserve(static_cast<std::size_t>(settings.fusion.max_targets));
+        const auto targets_at_most = static_cast<std::size_t>(settings.fusion.max_targets);
+        poses.reserve(targets_at_most);
+        const auto ticks = std::lround(settings.fusion.smooth_lag_s * settings.fusion.rate_hz);
+        if (ticks <= 0) return;
+        smoothed.reserve(targets_at_most);
+        lags.reserve(targets_at_most);
+        while (lags.size() < targets_at_most) lags.emplace_back(static_cast<std::size_t>(ticks));
     }
 
     Timestamp horizon() const noexcept { return now - window; }
@@ -74,6 +81,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     void take(const Measurement& difference, const AidBook::Record& record) noexcept override;
     void judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept override;
     void step_target(TargetTable::Slot slot, Timestamp tick) noexcept;
+    void look_back(TargetTable::Slot slot, const Estimate& foreseen) noexcept;
 
     EngineSettings settings;
     Duration window;
@@ -81,6 +89,8 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     TargetTable targets;
     AidBook book;
     uwb::ClockSynchroniser clocks;
+    std::vector<filter::FixedLag> lags; ///< of all slots; empty: nobody waits
+    std::vector<Pose> smoothed;
     std::vector<Pose> poses;                                                         ///< of the slots in use
     Timestamp now = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2); ///< newest arrival or tick
     Timestamp last_tick = Timestamp::min();
@@ -152,8 +162,20 @@ void Engine::Impl::judge(const Measurement& measurement, const AidBook::Record& 
 void Engine::Impl::step_target(TargetTable::Slot slot, Timestamp tick) noexcept {
     if (slot == poses.size()) poses.push_back(targets.blank_pose(slot));
     Timeline& timeline = targets.timeline(slot);
+    Estimate foreseen;
+    if (!lags.empty()) foreseen = timeline.predict(tick);
     timeline.run(tick, horizon(), book);
     fill(poses[slot], timeline.predict(tick));
+    if (!lags.empty()) look_back(slot, foreseen);
+}
+
+void Engine::Impl::look_back(TargetTable::Slot slot, const Estimate& foreseen) noexcept {
+    lags[slot].add(poses[slot].estimate, foreseen);
+    const auto then = lags[slot].smoothed();
+    if (!then) return;
+    Pose& pose = smoothed.emplace_back(poses[slot]);
+    fill(pose, *then);
+    if (pose.estimate.missing != Missing::nothing) smoothed.pop_back();
 }
 
 Engine::Engine(EngineSettings settings) : impl_(std::make_unique<Impl>(std::move(settings))) {}
@@ -171,11 +193,13 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->now = std::max(impl_->now, tick);
     impl_->book.update_rates(tick);
     impl_->clocks.run(tick, *impl_);
+    impl_->smoothed.clear();
     for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
         impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
     return impl_->poses;
 }
 
+std::span<const Pose> Engine::smoothed() const noexcept { return impl_->smoothed; }
 std::span<const AidStatus> Engine::sources() const noexcept { return impl_->book.sources(); }
 const EngineCounters& Engine::counters() const noexcept { return impl_->book.total(); }
 const EngineSettings& Engine::settings() const noexcept { return impl_->settings; }

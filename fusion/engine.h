@@ -24,6 +24,7 @@ struct FusionSettings {
     int max_targets = 64;
     double max_measurement_rate_hz = 1000;
     bool accept_unknown_targets = true;
+    double smooth_lag_s = 0;
     std::string estimator = "inertial_ekf";
 };
 
@@ -33,6 +34,9 @@ inline constexpr std::array fusion_options{
                                       "How late a measurement may come and still count as if it had come in order."),
     option<&FusionSettings::lost_after_s>("lost_after_s", "s", 0.05, 3600,
                                           "A target unheard for this long has no pose until it is heard again."),
+    option<&FusionSettings::smooth_lag_s>(
+        "smooth_lag_s", "s", 0, 5,
+        "For those who can wait: poses of so long ago that know what came since, beside the others; 0: none."),
     option<&FusionSettings::max_targets>("max_targets", "", 1, 4096, "Targets that memory is set aside for."),
     option<&FusionSettings::max_measurement_rate_hz>(
         "max_measurement_rate_hz", "Hz", 10, 10000,
@@ -81,6 +85,10 @@ class Engine {
     /// without a position are there too; estimate.missing says why. Tick times strictly increase: a tick
     /// that does not lie after the last one gives nothing.
     std::span<const Pose> step(Timestamp tick) noexcept;
+
+    /// Of the last step(), with smooth_lag_s set: where each target was that long before, by what came since as well.
+    /// Targets that have not been followed that long without a jump are left out.
+    std::span<const Pose> smoothed() const noexcept;
 
     std::span<const AidStatus> sources() const noexcept;
     const EngineCounters& counters() const noexcept;

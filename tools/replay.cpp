@@ -17,12 +17,15 @@ struct ReplayOptions {
     replay::Request request;
     std::string config;
     double rate_hz = 0;
+    double smooth_lag_s = 0;
     bool json = false;
 };
 
 std::optional<Settings> settings_of(const ReplayOptions& options) {
     auto settings = tools::settings_of_file(options.config);
-    if (settings && options.rate_hz > 0) settings->engine.fusion.rate_hz = options.rate_hz;
+    if (!settings) return settings;
+    if (options.rate_hz > 0) settings->engine.fusion.rate_hz = options.rate_hz;
+    if (options.smooth_lag_s > 0) settings->engine.fusion.smooth_lag_s = options.smooth_lag_s;
     return settings;
 }
 
@@ -67,11 +70,19 @@ void add_replay(CLI::App& root, int& exit_code) {
         ->type_name("HZ");
     app.add_flag("--smooth", options->request.smooth,
                  "Poses that know what came after them as well: for evaluation and maps, not for live use");
+    app.add_option("--smooth-lag", options->smooth_lag_s,
+                   "Write the poses that locusd gives so much later (SMOOTHED; fusion.smooth_lag_s)")
+        ->check(CLI::Range(0.001, 5.0))
+        ->excludes("--smooth")
+        ->type_name("S");
     app.add_flag("--json", options->json, "Print the summary as JSON");
     app.footer("Example:\n  locus replay flight.jsonl --config hall.yaml --poses flight.tum\n"
                "The same recording and configuration give the same bytes, every time.\n"
                "Exit codes: 0 there are poses, 1 there is none (it says why), 2 a file cannot be used.");
-    app.callback([options, &exit_code] { exit_code = run(*options); });
+    app.callback([options, &exit_code] {
+        options->request.lagged = options->smooth_lag_s > 0;
+        exit_code = run(*options);
+    });
 }
 
 } // namespace locus

@@ -72,6 +72,7 @@ ParsedCommand parse_watch(std::string_view text) {
     watch.enable = true;
     if (auto bad = read_flag(options, "enable", watch.enable)) return *bad;
     if (auto bad = read_flag(options, "poses", watch.poses)) return *bad;
+    if (auto bad = read_flag(options, "smoothed", watch.smoothed)) return *bad;
     if (auto bad = read_rate(options, watch.rate_hz)) return *bad;
     if (auto bad = read_targets(options, watch.targets)) return *bad;
     return Command{Verb::watch, std::move(watch)};
@@ -80,8 +81,11 @@ ParsedCommand parse_watch(std::string_view text) {
 } // namespace
 
 bool Watch::wants(std::string_view target) const {
-    if (!enable || !poses) return false;
-    return targets.empty() || std::ranges::find(targets, target) != targets.end();
+    return enable && poses && (targets.empty() || std::ranges::find(targets, target) != targets.end());
+}
+
+bool Watch::wants_smoothed(std::string_view target) const {
+    return enable && smoothed && (targets.empty() || std::ranges::find(targets, target) != targets.end());
 }
 
 ParsedCommand parse_command(std::string_view text) {

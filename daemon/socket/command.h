@@ -15,10 +15,12 @@ namespace locus {
 struct Watch {
     bool enable = false;
     bool poses = true;
+    bool smoothed = false;            ///< also those of fusion.smooth_lag_s ago
     double rate_hz = 0;               ///< poses of one target per second at most; 0: all
     std::vector<std::string> targets; ///< by name; empty: all
 
     bool wants(std::string_view target) const;
+    bool wants_smoothed(std::string_view target) const;
     bool operator==(const Watch&) const = default;
 };
 

@@ -65,11 +65,14 @@ bool is_publishable(const Pose& pose) {
     return pose.estimate.missing == Missing::nothing && all_finite(pose.estimate.position_site_m);
 }
 
-std::string open_pose_line(const Pose& pose, std::string_view target, std::uint32_t reset_count) {
+std::string open_pose_line(const Pose& pose, std::string_view target, std::uint32_t reset_count,
+                           std::string_view class_name) {
     const Estimate& estimate = pose.estimate;
     std::string out;
     out.reserve(640);
-    out += R"({"class":"POSE","target":)";
+    out += R"({"class":")";
+    out += class_name;
+    out += R"(","target":)";
     append_text(out, target);
     out += ",\"time\":";
     append_seconds(out, estimate.time);

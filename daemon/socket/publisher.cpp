@@ -160,7 +160,25 @@ void Publisher::take_output() {
     for (TickItem item; output_.ticks.pop(item);) picture_.take(item);
 }
 
+/// Comes after the target's newest pose, as often, so it is thinned alike.
+void Publisher::take_smoothed(const Pose& pose) {
+    const auto found = picture_.targets().find(pose.target);
+    if (found == picture_.targets().end() || !is_publishable(pose)) return;
+    const TargetView& view = found->second;
+    const std::string name = roster_->names.target(pose.target);
+    const Timestamp previous = pose.estimate.time - (view.pose.estimate.time - view.previous);
+    OpenLine line;
+    for (auto& [id, client] : clients_) {
+        if (!client.watch.wants_smoothed(name)) continue;
+        if (!is_due(previous, pose.estimate.time, client.watch.rate_hz)) continue;
+        if (!line)
+            line = std::make_shared<const std::string>(open_pose_line(pose, name, view.reset_count(), "SMOOTHED"));
+        client.queue.push_pose(line);
+    }
+}
+
 void Publisher::take_pose(const PoseItem& item) {
+    if (item.smoothed) return take_smoothed(item.pose);
     const TargetView& view = picture_.take(item);
     if (!is_publishable(view.pose)) return;
     const std::string name = roster_->names.target(view.pose.target);

@@ -52,6 +52,7 @@ class Publisher {
     void open_post();
     void take_output();
     void take_pose(const PoseItem& item);
+    void take_smoothed(const Pose& pose);
     void take_source(const SourceItem& item);
 
     Listener listener_;

@@ -38,20 +38,28 @@ class Run {
 
   private:
     void take_poses(std::span<const Pose> poses) {
-        for (Pose pose : poses) {
-            const std::string name{engine_.target_name(pose.target_index)};
-            if (!request_.target.empty() && name != request_.target) continue;
-            Summary::Target& target = summary_.targets[name];
-            target.missing = pose.estimate.missing;
-            if (!is_publishable(pose)) continue;
-            pose.published = pose.estimate.time;
-            if (target.poses++ == 0) target.first = pose.estimate.time;
-            target.last = pose.estimate.time;
-            if (smoother_)
-                smoother_->keep(pose, name);
-            else
-                write(pose, name);
+        for (const Pose& pose : poses) {
+            if (const std::string name = name_of(pose); request_.target.empty() || name == request_.target)
+                summary_.targets[name].missing = pose.estimate.missing;
+            if (!request_.lagged && is_publishable(pose)) take(pose, pose.estimate.time);
         }
+        for (const Pose& pose : engine_.smoothed())
+            if (request_.lagged && is_publishable(pose)) take(pose, poses.front().estimate.time);
+    }
+
+    std::string name_of(const Pose& pose) const { return std::string{engine_.target_name(pose.target_index)}; }
+
+    void take(Pose pose, Timestamp published) {
+        const std::string name = name_of(pose);
+        if (!request_.target.empty() && name != request_.target) return;
+        Summary::Target& target = summary_.targets[name];
+        pose.published = published;
+        if (target.poses++ == 0) target.first = pose.estimate.time;
+        target.last = pose.estimate.time;
+        if (smoother_)
+            smoother_->keep(pose, name);
+        else
+            write(pose, name);
     }
 
     void smooth(Smoother& smoother) {

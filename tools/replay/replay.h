@@ -18,6 +18,7 @@ struct Request {
     std::vector<std::string> pose_files;
     std::string target; ///< only this one's poses; empty: all
     bool smooth = false;
+    bool lagged = false; ///< those of fusion.smooth_lag_s ago, in place of the newest
 };
 
 struct Summary {

@@ -28,6 +28,15 @@ TEST(Command, EveryVerbIsUnderstood) {
     EXPECT_EQ(good("?RELOAD").verb, Verb::reload);
 }
 
+TEST(Command, SmoothedPosesAreForThoseWhoAsk) {
+    EXPECT_FALSE(good(R"(?WATCH={"enable":true})").watch->wants_smoothed("a"));
+    const Watch watch = *good(R"(?WATCH={"smoothed":true,"poses":false,"targets":["a"]})").watch;
+    EXPECT_TRUE(watch.wants_smoothed("a"));
+    EXPECT_FALSE(watch.wants_smoothed("b"));
+    EXPECT_FALSE(watch.wants("a"));
+    EXPECT_NE(bad(R"(?WATCH={"smoothed":1})").find("smoothed"), std::string::npos);
+}
+
 TEST(Command, WatchTakesItsOptionsAndPassesOverOthers) {
     const Watch watch = *good(R"(?WATCH={"targets":["a","b"],"rate_hz":5,"json":true})").watch;
     EXPECT_TRUE(watch.enable);

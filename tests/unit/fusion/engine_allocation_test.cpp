@@ -64,6 +64,7 @@ TEST(Engine, AllocatesNothingAfterConstruction) {
          {"follower", "range_ekf", "inertial_ekf", "chan_taylor", "kalman", "coloured_kalman", "pca_kalman"}) {
         auto settings = follower_settings();
         settings.fusion.estimator = estimator;
+        settings.fusion.smooth_lag_s = 0.1;
         settings.fusion.max_targets = 12;
         settings.fusion.max_measurement_rate_hz = 20;
         EXPECT_EQ(allocations_of_a_run(settings), 0u) << estimator;

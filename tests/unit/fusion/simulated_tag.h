@@ -1,4 +1,5 @@
-// A tag drawn from the range filter's own model: acceleration that dies away, anchor errors that wander, white noise.
+// A tag drawn from the range filter's own model: acceleration that dies away, anchor errors that wander and that stay,
+// white noise.
 // Against it a filter must be consistent; against anything else it can only be useful.
 #pragma once
 
@@ -35,6 +36,9 @@ class SimulatedTag {
         motion_.row(0) << 0.5, -0.5, settings.planar ? settings.height_m : 1.5;
         for (double& error_m : anchor_error_m_) error_m = settings.anchor_error_sigma_m * normal_(random_);
         common_m_ = settings.common_range_error_sigma_m * normal_(random_);
+        std::mt19937_64 surveyor(seed + 1000); // its own: the walk stays the same whatever the survey was like
+        for (std::size_t i = 0; i < site.anchors.size(); ++i)
+            offset_m_.push_back(settings.anchor_offset_sigma_m * normal_(surveyor));
     }
 
     void move(double dt_s) {
@@ -69,7 +73,7 @@ class SimulatedTag {
     double draw() { return normal_(random_); }
     double heard_m(std::size_t anchor) const {
         const Eigen::Vector3d anchor_site_m = vector(site_.anchors[anchor].position_site_m);
-        return (motion_.row(0).transpose() - anchor_site_m).norm() + anchor_error_m_[anchor];
+        return (motion_.row(0).transpose() - anchor_site_m).norm() + anchor_error_m_[anchor] + offset_m_[anchor];
     }
     Measurement at_now(const Observation& observation) const { return {timestamp_from_s(time_s_), 0, 0, observation}; }
 
@@ -79,6 +83,7 @@ class SimulatedTag {
     std::normal_distribution<double> normal_;
     Eigen::Matrix3d motion_ = Eigen::Matrix3d::Zero();
     std::vector<double> anchor_error_m_;
+    std::vector<double> offset_m_;
     double common_m_ = 0;
     double time_s_ = 1;
 };
