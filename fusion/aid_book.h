@@ -40,6 +40,9 @@ class AidBook {
     /// To be called each tick: brings the rates up to date about once a second, also of those that fell silent.
     void update_rates(Timestamp tick) noexcept;
 
+    /// Anchors of the site hold the first places, in its order.
+    void tell_health(std::size_t anchor, const AnchorReport& report) noexcept { sources_[anchor].health = report; }
+
     std::span<const AidStatus> sources() const noexcept { return sources_; }
     const EngineCounters& total() const noexcept { return total_; }
 

@@ -1,6 +1,7 @@
 // One record for every source of aid, whatever its kind: an anchor, a camera, a satellite, a beacon, an IMU.
 #pragma once
 
+#include "fusion/anchor_report.h"
 #include "fusion/measurement.h"
 
 #include <array>
@@ -131,8 +132,9 @@ struct AidStatus {
     double last_observation = 0;
     Verdict last_verdict{Exclusion::not_seen_yet};
     AidCounters counters;
-    float rate_hz = 0; ///< of what was heard, used or not; smoothed
-    float delay_s = 0; ///< arrival less stamp, smoothed
+    float rate_hz = 0;   ///< of what was heard, used or not; smoothed
+    float delay_s = 0;   ///< arrival less stamp, smoothed
+    AnchorReport health; ///< of an anchor of the site
 };
 
 } // namespace locus

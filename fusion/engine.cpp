@@ -1,6 +1,7 @@
 #include "fusion/engine.h"
 
 #include "fusion/aid_book.h"
+#include "fusion/anchor_watch.h"
 #include "fusion/filter/fixed_lag.h"
 #include "fusion/fresh_estimators.h"
 #include "fusion/geometry/error_bound.h"
@@ -61,7 +62,8 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     explicit Impl(EngineSettings given)
         : settings(std::move(given)), window(duration_from_s(settings.fusion.window_s)), fresh(settings),
           targets(settings, fresh), book(settings.site),
-          clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)) {
+          clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)),
+          anchors(settings.site, settings.anchor_health, static_cast<std::size_t>(settings.fusion.max_targets)) {
         const auto targets_at_most = static_cast<std::size_t>(settings.fusion.max_targets);
         poses.reserve(targets_at_most);
         const auto ticks = std::lround(settings.fusion.smooth_lag_s * settings.fusion.rate_hz);
@@ -89,6 +91,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     TargetTable targets;
     AidBook book;
     uwb::ClockSynchroniser clocks;
+    AnchorWatch anchors;
     std::vector<filter::FixedLag> lags; ///< of all slots; empty: nobody waits
     std::vector<Pose> smoothed;
     std::vector<Pose> poses;                                                         ///< of the slots in use
@@ -127,8 +130,10 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
     const bool is_peer = std::holds_alternative<PeerRange>(measurement.observation);
-    return targets.timeline(slot).insert(is_peer ? with_peer(measurement, delivery) : measurement,
-                                         key_of(measurement, delivery), record);
+    const Exclusion reason = targets.timeline(slot).insert(is_peer ? with_peer(measurement, delivery) : measurement,
+                                                           key_of(measurement, delivery), record);
+    if (reason == Exclusion::none) anchors.hear(slot, measurement);
+    return reason;
 }
 
 /// A range between two tags goes into the timeline with what the other one knew of itself when it came. It stays in the
@@ -196,6 +201,7 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->smoothed.clear();
     for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
         impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
+    impl_->anchors.step(tick, impl_->poses, impl_->book);
     return impl_->poses;
 }
 

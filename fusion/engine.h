@@ -7,6 +7,7 @@
 #include "fusion/option.h"
 #include "fusion/pose.h"
 #include "fusion/site.h"
+#include "fusion/uwb/anchor_health_settings.h"
 #include "fusion/uwb/clock_sync/settings.h"
 
 #include <array>
@@ -67,6 +68,7 @@ struct EstimatorSettings {
 struct EngineSettings {
     FusionSettings fusion;
     ClockSyncSettings clock_sync;
+    uwb::AnchorHealthSettings anchor_health;
     Site site;
     std::vector<TargetSettings> targets;
     std::vector<EstimatorSettings> estimators; ///< only those whose settings differ from the defaults need be here

@@ -8,6 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace locus {
 
 namespace {
@@ -101,6 +105,47 @@ void print_remarks(const json& inputs) {
     }
 }
 
+std::string place(const json& health) {
+    std::string place;
+    for (const auto& coordinate : list(health, "stands_site_m"))
+        place += (place.empty() ? "" : ", ") +
+                 (coordinate.is_number() ? fmt::format("{:.2f}", coordinate.get<double>()) : std::string("?"));
+    return place;
+}
+
+/// Standard deviation of the least certain of the coordinates that are told.
+double place_sigma_m(const json& health) {
+    const json &at = list(health, "stands_site_m"), &covariance = list(health, "stands_covariance_m2");
+    constexpr std::array<std::size_t, 3> diagonal{0, 3, 5};
+    double variance_m2 = 0;
+    for (std::size_t axis = 0; axis < diagonal.size() && axis < at.size() && diagonal[axis] < covariance.size(); ++axis)
+        if (at[axis].is_number() && covariance[diagonal[axis]].is_number())
+            variance_m2 = std::max(variance_m2, covariance[diagonal[axis]].get<double>());
+    return std::sqrt(variance_m2);
+}
+
+std::string health_remark(const json& health) {
+    std::string remark = fmt::format("{} for {}: {}", text(health, "state"), duration(number(health, "since_s")),
+                                     text(health, "sentence"));
+    if (const auto residual_m = number(health, "residual_m"))
+        remark += fmt::format("; its ranges are {:+.2f} m off (+-{:.2f})", *residual_m,
+                              number(health, "residual_sigma_m").value_or(0));
+    if (const auto moved_m = number(health, "moved_m"))
+        remark += fmt::format("; moved by {:.2f} m, it seems to stand at [{}] (+-{:.2f})", *moved_m, place(health),
+                              place_sigma_m(health));
+    return remark;
+}
+
+// Anchors that are not well, each with what ails it and what to do.
+void print_ailing(const json& sources) {
+    for (const auto& source : sources) {
+        const json& health = object(source, "health");
+        const std::string state = text(health, "state");
+        if (!state.empty() && state != "good" && state != "new" && state != "not_heard")
+            fmt::print("  {}: {}\n", name_or_address(source), toned(health_remark(health), Tone::bad));
+    }
+}
+
 int sources(Client& client, bool as_json) {
     const Message answer = client.ask("?SOURCES;\n", "SOURCES");
     if (as_json) {
@@ -110,6 +155,7 @@ int sources(Client& client, bool as_json) {
     const Table anchors = source_table(list(answer.fields, "sources"));
     if (anchors.empty()) fmt::print("no source yet: the site names no anchor\n");
     if (!anchors.empty()) print_lines(anchors.lines());
+    print_ailing(list(answer.fields, "sources"));
     fmt::print("\n");
     print_lines(input_table(list(answer.fields, "inputs")).lines());
     print_remarks(list(answer.fields, "inputs"));

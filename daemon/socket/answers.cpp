@@ -38,6 +38,27 @@ ordered_json counters_json(const AidCounters& counters) {
             {"late", counters.late}};
 }
 
+/// null where a coordinate is not known.
+ordered_json known_coordinates(const Vec3f& site_m) {
+    ordered_json list = ordered_json::array();
+    for (const float coordinate_m : site_m)
+        list.push_back(std::isfinite(coordinate_m) ? ordered_json(coordinate_m) : ordered_json());
+    return list;
+}
+
+ordered_json health_json(const AnchorReport& health, Timestamp now) {
+    ordered_json object{{"state", anchor_state_name(health.state)}, {"sentence", anchor_state_sentence(health.state)}};
+    put_age(object, "since_s", health.since, now);
+    put_finite(object, "residual_m", health.residual_m);
+    put_finite(object, "residual_sigma_m", health.residual_sigma_m);
+    object["blocked_share"] = health.blocked_share;
+    if (!std::isfinite(health.moved_m)) return object;
+    object["moved_m"] = health.moved_m;
+    object["stands_site_m"] = known_coordinates(health.stands_site_m);
+    object["stands_covariance_m2"] = health.stands_covariance_m2;
+    return object;
+}
+
 ordered_json source_json(const AidStatus& source, const Roster& roster, Timestamp now) {
     const Verdict& verdict = source.last_verdict;
     ordered_json object{{"kind", source_kind_names[static_cast<std::size_t>(source.kind)]},
@@ -57,6 +78,7 @@ ordered_json source_json(const AidStatus& source, const Roster& roster, Timestam
     put_age(object, "last_used_age_s", source.last_used_time, now);
     if (source.last_target != no_address) object["last_target"] = roster.names.target(source.last_target);
     object["counters"] = counters_json(source.counters);
+    if (source.kind == SourceKind::anchor) object["health"] = health_json(source.health, now);
     return object;
 }
 

@@ -21,11 +21,13 @@ class RangeReader {
 
     Reading read(const Measurement& measurement) const noexcept;
 
+    /// Place of an anchor in the site, or uwb::Sighting::nobody.
+    std::int16_t index_of(Address anchor) const noexcept;
+
   private:
     Reading read(const Range& range) const noexcept;
     Reading read(const RangeDifference& difference) const noexcept;
     Exclusion refusal(double value_m, LineOfSight line_of_sight) const noexcept;
-    std::int16_t index_of(Address anchor) const noexcept;
     const Anchor& anchor(std::int16_t index) const { return site_->anchors[static_cast<std::size_t>(index)]; }
 
     const Site* site_;

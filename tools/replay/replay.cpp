@@ -33,6 +33,9 @@ class Run {
         if (smoother_) smooth(*smoother_);
         for (const auto& file : files_) file->close();
         summary_.engine = engine_.counters();
+        const auto& anchors = engine_.settings().site.anchors;
+        for (std::size_t i = 0; i < anchors.size(); ++i)
+            summary_.anchors.emplace_back(anchors[i].name, engine_.sources()[i].health);
         return std::move(summary_);
     }
 

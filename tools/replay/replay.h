@@ -2,6 +2,7 @@
 #pragma once
 
 #include "config/settings.h"
+#include "fusion/anchor_report.h"
 #include "fusion/pose.h"
 #include "tools/replay/recording.h"
 
@@ -9,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace locus::replay {
@@ -34,6 +36,7 @@ struct Summary {
     std::optional<Timestamp> first_arrival;
     Timestamp last_arrival{};
     std::map<std::string, Target> targets;
+    std::vector<std::pair<std::string, AnchorReport>> anchors; ///< as they were at the end
 
     bool has_poses() const;
 };

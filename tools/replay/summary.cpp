@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace locus::replay {
 namespace {
 
@@ -45,6 +47,17 @@ Table target_table(const Summary& summary) {
         table.add({name, std::to_string(target.poses), time(target.first), time(target.last),
                    well ? "" : std::string(missing_sentence(target.missing))});
     }
+    return table;
+}
+
+/// Those that were not well at the end.
+Table anchor_table(const Summary& summary) {
+    Table table{{{"anchor"}, {"state"}, {"off m", Align::right}, {"moved m", Align::right}, {"which means"}}};
+    const auto known = [](float value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; };
+    for (const auto& [name, health] : summary.anchors)
+        if (health.state != AnchorState::good && health.state != AnchorState::joined)
+            table.add({name, std::string(anchor_state_name(health.state)), tools::figure(known(health.residual_m), 2),
+                       tools::figure(known(health.moved_m), 2), std::string(anchor_state_sentence(health.state))});
     return table;
 }
 
@@ -88,6 +101,7 @@ std::vector<std::string> summary_lines(const Summary& summary) {
         lines.push_back(fmt::format("{} measurements cannot be run backwards and are not smoothed", summary.one_way));
     append(lines, verdict_table(summary.engine));
     append(lines, target_table(summary));
+    append(lines, anchor_table(summary));
     return lines;
 }
 
@@ -105,6 +119,7 @@ std::string summary_json(const Summary& summary) {
                           {"rolled_back", summary.engine.rolled_back},
                           {"targets", nlohmann::json::array()}};
     for (const auto& [name, target] : summary.targets) object["targets"].push_back(as_json(name, target));
+    for (const auto& [name, health] : summary.anchors) object["anchors"][name] = anchor_state_name(health.state);
     return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -103,6 +103,23 @@ TEST(Answers, EachIsOneLineOfItsClass) {
     }
 }
 
+TEST(Answers, AnAnchorTellsItsHealth) {
+    Picture picture;
+    AidStatus status;
+    status.source = address(3);
+    status.health.state = AnchorState::moved;
+    status.health.since = timestamp_from_s(5);
+    status.health.moved_m = 1.5F;
+    status.health.stands_site_m = {1, 2, unknown_f};
+    picture.take(SourceItem{1, 0, 1, status});
+    const json line = json::parse(sources_line(picture, some_roster(), {}, timestamp_from_s(15)));
+    const json& health = line["sources"][0]["health"];
+    EXPECT_EQ(health["state"], "moved");
+    EXPECT_DOUBLE_EQ(health["since_s"], 10);
+    EXPECT_FALSE(health.contains("residual_m")) << "not known";
+    EXPECT_EQ(health["stands_site_m"], json::parse("[1.0,2.0,null]"));
+}
+
 TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
     Picture picture;
     AidStatus status;

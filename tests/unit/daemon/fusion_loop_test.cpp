@@ -80,7 +80,7 @@ struct Bench {
 TEST(FusionLoop, AllocatesNothingAndTouchesNoNewPageOnceItRuns) {
     Bench bench{10};
     // Warm: every ring was round once, so each of its pages was touched (the daemon locks them instead).
-    for (int i = 0; i < 2000; ++i) bench.cycle(i);
+    for (int i = 0; i < 2200; ++i) bench.cycle(i);
     const test::AllocationCount allocations;
     const long faults = page_faults();
     std::size_t positions = 0;

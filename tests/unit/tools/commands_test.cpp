@@ -84,6 +84,19 @@ TEST(Sources, OneThatFellSilentIsNotInUse) {
     EXPECT_THAT(run_client({"sources", "--socket", daemon.path()}).out, HasSubstr("silent for 3.0 s"));
 }
 
+TEST(Sources, AnAnchorThatIsNotWellSaysWhatAilsIt) {
+    const FakeDaemon daemon(
+        {{"?SOURCES", R"({"class":"SOURCES","sources":[{"name":"north","used":true,"health":{"state":"moved",)"
+                      R"("sentence":"survey it again","since_s":200,"residual_m":0.4,"residual_sigma_m":0.03,)"
+                      R"("moved_m":1.2,"stands_site_m":[13,9.2,null],"stands_covariance_m2":[0.01,0,0,0.04,0,9]}},)"
+                      R"({"name":"south","used":true,"health":{"state":"good","sentence":"agrees"}}]})"
+                      "\n"}});
+    const auto out = run_client({"sources", "--socket", daemon.path()}).out;
+    EXPECT_THAT(out, HasSubstr("  north: moved for 3 min 20 s: survey it again; its ranges are +0.40 m off (+-0.03); "
+                               "moved by 1.20 m, it seems to stand at [13.00, 9.20, ?] (+-0.20)\n"));
+    EXPECT_THAT(out, testing::Not(HasSubstr("south: ")));
+}
+
 TEST(Targets, ShowWhereTheyAreOrWhatStandsInTheWay) {
     const FakeDaemon daemon({{"?TARGETS", targets_line}});
     const auto result = run_client({"targets", "--socket", daemon.path()});
