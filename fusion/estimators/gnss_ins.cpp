@@ -24,7 +24,9 @@ constexpr double most_pressure_age_s = 2;
 constexpr double least_clock_jump_m = 1000, jumps_agree_m = 100;
 /// Before any fix the clock is unknown: satellites then set it.
 constexpr double unknown_clock_m = 1000, unknown_drift_mps = 1000;
-constexpr double lost_after_s = 10, lost_share = 0.8;
+/// Observations over which the share of refused ones is taken, and from which share on the filter may be lost. Fixes
+/// under a bridge are wrong for a minute and dead reckoning is not, so that it takes 350 of them in a row.
+constexpr double satellite_memory = 500, fix_memory = 150, range_memory = 200, lost_share = 0.9;
 
 bool finite(const Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
@@ -97,10 +99,9 @@ Verdict GnssIns::start_at(const GnssFix& fix, Timestamp time) noexcept {
     return this->start(start, time);
 }
 
-void GnssIns::note(const Verdict& verdict, Timestamp time) noexcept {
+void GnssIns::note(const Verdict& verdict, Timestamp time, double memory) noexcept {
     const bool refused = verdict.reason != Exclusion::none;
-    const double fresh = -std::expm1(-to_s(time - used_time_) / lost_after_s);
-    refused_share_ += std::clamp(fresh, 0.002, 0.2) * ((refused ? 1.0 : 0.0) - refused_share_);
+    refused_share_ += ((refused ? 1.0 : 0.0) - refused_share_) / memory;
     if (!refused) used_time_ = time;
 }
 
@@ -192,7 +193,7 @@ Verdict GnssIns::take(const SatelliteRange& range, Timestamp time) noexcept {
     if (clock_jumped(range, code)) return {Exclusion::clock_jumped};
     const Verdict verdict = weigh(Aid::code, code, code_gates_[gate_of(range)]);
     const Verdict rate = take_rate(range, rate_gates_[gate_of(range)]);
-    note(verdict.reason == Exclusion::none ? verdict : rate, time);
+    note(verdict.reason == Exclusion::none ? verdict : rate, time, satellite_memory);
     start_again_if_lost(time);
     return verdict;
 }
@@ -227,7 +228,7 @@ Verdict GnssIns::take(const GnssFix& fix, Timestamp time) noexcept {
     move_to(time);
     if (height_is_off(fix)) return {Exclusion::innovation_too_large};
     const Verdict verdict = take_fix(fix);
-    note(verdict, time);
+    note(verdict, time, fix_memory);
     if (refused_share_ > lost_share) start_at(fix, time);
     return verdict;
 }
@@ -265,7 +266,7 @@ Verdict GnssIns::take(const Range& range, Timestamp time) noexcept {
     const auto at = static_cast<std::size_t>(anchor - site_->anchors.data());
     const Verdict verdict =
         weigh(Aid::range, observations_->range(track_, range, *anchor), anchor_gates_[at % anchor_gates_.size()]);
-    note(verdict, time);
+    note(verdict, time, range_memory);
     return verdict;
 }
 
@@ -278,7 +279,6 @@ Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate)
     const auto prediction = filter::predict_scalar(track_.covariance, scalar.jacobian);
     const double sigma = std::sqrt(prediction.state_variance + variance);
     const double in_sigma = scalar.innovation / sigma;
-    if (learns) noise_[at].learn(scalar.innovation, prediction.state_variance, scalar.variance);
 
     Verdict verdict;
     verdict.innovation = static_cast<float>(scalar.innovation);
@@ -289,6 +289,7 @@ Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate)
         verdict.weight = 0;
         return verdict;
     }
+    if (learns) noise_[at].learn(scalar.innovation, prediction.state_variance, scalar.variance);
     const filter::Share share = robust_[at].weigh(in_sigma);
     verdict.weight = static_cast<float>(share.step);
     track_.correct(prediction, scalar.innovation, variance, share);

@@ -69,7 +69,8 @@ class GnssIns final : public Estimator {
     Verdict start_at(const GnssFix& fix, Timestamp time) noexcept;
     void move_to(Timestamp time) noexcept;
     Verdict weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate) noexcept;
-    void note(const Verdict& verdict, Timestamp time) noexcept;
+    /// `memory`: observations of this kind over which the share of refused ones is taken.
+    void note(const Verdict& verdict, Timestamp time, double memory) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
 
     const GnssInsSettings& settings() const noexcept { return observations_->settings(); }

@@ -34,7 +34,8 @@ def weighted_normal(lines, values, weights):
 
 
 def fitted(lines, values, sigmas):
-    """Four unknowns, Cauchy weights at three sigma. The solution and the normal matrix, or None."""
+    """Four unknowns, Cauchy weights at three sigma. The solution, the normal matrix and how many times the sigmas the residuals
+    are, at least 1; or None."""
     answer, weights = [0.0] * 4, [1 / s**2 for s in sigmas]
     for _ in range(5):
         normal, right = weighted_normal(lines, values, weights)
@@ -42,12 +43,13 @@ def fitted(lines, values, sigmas):
         if answer is None:
             return None
         weights = [cauchy(v - dot(h, answer), 3 * s) / s**2 for h, v, s in zip(lines, values, sigmas)]
-    return answer, normal
+    squares = sum(((v - dot(h, answer)) / s) ** 2 for h, v, s in zip(lines, values, sigmas))
+    return answer, normal, max(1.0, (squares / max(len(values) - 4, 1)) ** 0.5)
 
 
 def fix(satellites, near_m, code_sigma_m, rate_sigma_mps):
-    """Of one epoch, from rows (place, velocity, pseudorange, rate, sine of the elevation): place, velocity, and the covariances
-    of both over the squared sigma at the zenith, east, north and up; or None."""
+    """Of one epoch, from rows (place, velocity, pseudorange, rate, sine of the elevation): place, velocity, and the standard
+    deviations of both, east, north and up; or None."""
     place, sigmas = list(near_m), [1 / max(row[4], 0.1) for row in satellites]
     for _ in range(6):
         arms = [[s - p for s, p in zip(row[0], place)] for row in satellites]
@@ -63,9 +65,9 @@ def fix(satellites, near_m, code_sigma_m, rate_sigma_mps):
     if moved is None:
         return None
     up = east_north_up(*geodetic(*place)[:2])
-    return place, moved[0][:3], sigma_enu(found[1], up), sigma_enu(moved[1], up)
+    return place, moved[0][:3], sigma_enu(*found[1:], up), sigma_enu(*moved[1:], up)
 
 
-def sigma_enu(normal, directions):
-    """Standard deviations along the directions, by the normal matrix."""
-    return [max(dot(direction, solved(normal, [*direction, 0.0])[:3]), 0.0) ** 0.5 for direction in directions]
+def sigma_enu(normal, scale, directions):
+    """Standard deviations along the directions, by the normal matrix and what the residuals come to."""
+    return [scale * max(dot(direction, solved(normal, [*direction, 0.0])[:3]), 0.0) ** 0.5 for direction in directions]
