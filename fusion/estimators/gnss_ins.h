@@ -105,6 +105,6 @@ std::unique_ptr<Estimator> make_gnss_ins(const Site& site, const void* settings)
 inline constexpr EstimatorRow gnss_ins_row{
     "gnss_ins",
     "Vehicles: satellites or fixes with an inertial sensor, wheels, barometer and UWB ranges; needs site.origin.",
-    option_table<GnssInsSettings>(gnss_ins_options), make_gnss_ins};
+    option_table<GnssInsSettings>(gnss_ins_options), make_gnss_ins, true};
 
 } // namespace locus
