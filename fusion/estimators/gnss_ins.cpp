@@ -11,24 +11,17 @@ namespace locus {
 namespace {
 
 constexpr double vehicle_kind_memory_s = 1;
-/// The vehicle's own constraints are no news more often than this.
-constexpr Duration constraint_period = std::chrono::milliseconds{100};
 /// Fixes are left aside for so long after a satellite's range was heard, where the coupling is automatic.
 constexpr double satellites_memory_s = 2;
-constexpr double wheel_memory_s = 0.5;
-constexpr double standing_speed_mps = 0.1;
-/// A sensor that lies still at this speed rides on a smooth road.
-constexpr double most_speed_at_rest_mps = 1;
-constexpr double most_pressure_age_s = 2;
 /// Receivers set their clocks by milliseconds (300 km); no pseudorange is wrong by as much as a kilometre otherwise.
 constexpr double least_clock_jump_m = 1000, jumps_agree_m = 100;
 /// Before any fix the clock is unknown: satellites then set it.
 constexpr double unknown_clock_m = 1000, unknown_drift_mps = 1000;
 /// Observations over which the share of refused ones is taken, and from which share on the filter may be lost. Fixes
 /// under a bridge are wrong for a minute and dead reckoning is not, so that it takes 350 of them in a row.
-constexpr double satellite_memory = 500, fix_memory = 150, range_memory = 200, lost_share = 0.9;
+constexpr double satellite_memory = 500, fix_memory = 150, lost_share = 0.9;
 
-bool finite(const Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+bool tells_velocity(const Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
 std::size_t gate_of(const SatelliteRange& range) {
     return (range.constellation % std::size_t{8}) * 64 + range.satellite % std::size_t{64};
@@ -59,12 +52,6 @@ void GnssIns::move_to(Timestamp time) noexcept {
     time_ = time;
 }
 
-bool GnssIns::is_due(Timestamp& last, Timestamp time) noexcept {
-    if (time - last < constraint_period) return false;
-    last = time;
-    return true;
-}
-
 // ---- start
 
 Verdict GnssIns::start(const GnssInsStart& start, Timestamp time) noexcept {
@@ -83,7 +70,7 @@ Verdict GnssIns::start_at(const GnssFix& fix, Timestamp time) noexcept {
     const double error = settings().fix_error_sigma_m;
     const double level = std::hypot(sigma(fix.sigma_horizontal_m, settings().fix_sigma_m), error);
     const double up = std::hypot(sigma(fix.sigma_vertical_m, settings().fix_sigma_m), error);
-    const bool moves = finite(fix.velocity_enu_mps);
+    const bool moves = tells_velocity(fix.velocity_enu_mps);
     const double speed = moves ? sigma(fix.sigma_velocity_mps, settings().fix_speed_sigma_mps) : 10;
     GnssInsStart start;
     start.position_ecef_m = ecef_m(place);
@@ -110,63 +97,6 @@ void GnssIns::note(const Verdict& verdict, Timestamp time, double memory) noexce
 void GnssIns::start_again_if_lost(Timestamp time) noexcept {
     if (refused_share_ < lost_share) return;
     if (const auto found = start_.solve(*observations_, time)) start(*found, time);
-}
-
-// ---- inertial sensor and vehicle
-
-Verdict GnssIns::take(const ImuSample& sample, Timestamp time) noexcept {
-    if (!settings().use_imu) return {Exclusion::disabled};
-    move_to(time);
-    track_.sense(sample, time, started_);
-    if (!started_) return {};
-    const bool still = settings().zero_velocity && track_.is_at_rest() && stands_by_wheel(time) &&
-                       track_.velocity_ecef_mps().norm() < most_speed_at_rest_mps;
-    if (still && is_due(stood_, time)) stand();
-    if (!still && track_.is_inertial() && settings().non_holonomic && is_due(held_to_road_, time)) hold_to_the_road();
-    return {};
-}
-
-bool GnssIns::stands_by_wheel(Timestamp time) const noexcept {
-    return to_s(time - wheel_heard_) > wheel_memory_s || std::abs(wheel_mps_) < standing_speed_mps;
-}
-
-void GnssIns::stand() noexcept {
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto at = static_cast<std::size_t>(axis);
-        weigh(Aid::standing, observations_->standing(track_, axis),
-              gates_[static_cast<std::size_t>(Aid::standing)][at]);
-        weigh(Aid::standing_rate, observations_->standing_rate(track_, axis),
-              gates_[static_cast<std::size_t>(Aid::standing_rate)][at]);
-    }
-}
-
-void GnssIns::hold_to_the_road() noexcept {
-    for (const int axis : {1, 2})
-        weigh(Aid::slip, observations_->slip(track_, axis),
-              gates_[static_cast<std::size_t>(Aid::slip)][static_cast<std::size_t>(axis)]);
-}
-
-Verdict GnssIns::take(const WheelSpeed& wheel, Timestamp time) noexcept {
-    if (!settings().use_wheel_speed) return {Exclusion::disabled};
-    wheel_mps_ = wheel.speed_mps;
-    wheel_heard_ = time;
-    if (!started_ || !track_.is_inertial()) return {Exclusion::waiting_for_start};
-    if (!is_due(wheel_used_, time)) return {};
-    move_to(time);
-    if (std::isfinite(wheel.yaw_rate_radps))
-        weigh(Aid::yaw, observations_->yaw_rate(track_, wheel), gates_[static_cast<std::size_t>(Aid::yaw)][0]);
-    return weigh(Aid::wheel, observations_->wheel_speed(track_, wheel),
-                 gates_[static_cast<std::size_t>(Aid::wheel)][0]);
-}
-
-Verdict GnssIns::take(const Pressure& pressure, Timestamp time) noexcept {
-    if (!settings().use_pressure) return {Exclusion::disabled};
-    pressure_ = pressure;
-    if (!started_) return {Exclusion::waiting_for_start};
-    if (!is_due(pressure_heard_, time)) return {};
-    move_to(time);
-    return weigh(Aid::pressure, observations_->pressure(track_, pressure),
-                 gates_[static_cast<std::size_t>(Aid::pressure)][0]);
 }
 
 // ---- satellites
@@ -243,31 +173,11 @@ Verdict GnssIns::take_fix(const GnssFix& fix) noexcept {
         const Verdict verdict = weigh(Aid::fix, observations_->fix_position(track_, fix, axis),
                                       gates_[static_cast<std::size_t>(Aid::fix)][at]);
         if (verdict.test_ratio > worst.test_ratio) worst = verdict;
-        if (finite(fix.velocity_enu_mps))
+        if (tells_velocity(fix.velocity_enu_mps))
             weigh(Aid::fix_velocity, observations_->fix_velocity(track_, fix, axis),
                   gates_[static_cast<std::size_t>(Aid::fix_velocity)][at]);
     }
     return worst;
-}
-
-bool GnssIns::height_is_off(const GnssFix& fix) noexcept {
-    if (settings().refuse_fix_height_m <= 0 || to_s(time_ - pressure_heard_) > most_pressure_age_s) return false;
-    const auto height_m = observations_->height_by_pressure_m(track_, pressure_);
-    return height_m && std::abs(fix.height_ellipsoid_m - *height_m) > settings().refuse_fix_height_m;
-}
-
-// ---- ranges
-
-Verdict GnssIns::take(const Range& range, Timestamp time) noexcept {
-    const Anchor* anchor = site_->find_anchor(range.anchor);
-    if (anchor == nullptr) return {Exclusion::unknown_source};
-    if (!started_) return {Exclusion::waiting_for_start};
-    move_to(time);
-    const auto at = static_cast<std::size_t>(anchor - site_->anchors.data());
-    const Verdict verdict =
-        weigh(Aid::range, observations_->range(track_, range, *anchor), anchor_gates_[at % anchor_gates_.size()]);
-    note(verdict, time, range_memory);
-    return verdict;
 }
 
 // ---- the update
@@ -312,6 +222,12 @@ Estimate GnssIns::predict(Timestamp time) const noexcept {
 
     GnssInsTrack track = track_;
     track.predict(std::max(0.0, to_s(time - time_)));
+    report(track, estimate);
+    return estimate;
+}
+
+/// Of the antenna, in the site's frame.
+void GnssIns::report(const GnssInsTrack& track, Estimate& estimate) const noexcept {
     const Eigen::Matrix3d to_site = observations_->earth().to_ecef().transpose();
     const Eigen::Vector3d antenna = vector(settings().gnss_antenna_body_m);
     const Eigen::Vector3d position = observations_->earth().site_m(track.point_ecef_m(antenna));
@@ -333,7 +249,6 @@ Estimate GnssIns::predict(Timestamp time) const noexcept {
         const Eigen::Quaterniond q = Eigen::Quaterniond(to_site) * track.body_to_ecef();
         estimate.orientation_xyzw = {q.x(), q.y(), q.z(), q.w()};
     }
-    return estimate;
 }
 
 std::unique_ptr<Estimator> make_gnss_ins(const Site& site, const void* settings) {

@@ -72,6 +72,7 @@ class GnssIns final : public Estimator {
     /// `memory`: observations of this kind over which the share of refused ones is taken.
     void note(const Verdict& verdict, Timestamp time, double memory) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
+    void report(const GnssInsTrack& track, Estimate& estimate) const noexcept;
 
     const GnssInsSettings& settings() const noexcept { return observations_->settings(); }
     static bool is_due(Timestamp& last, Timestamp time) noexcept;

@@ -29,7 +29,7 @@ class GnssInsObservations {
 
     /// Sine of a satellite's elevation, seen from the track.
     double elevation_sine(const GnssInsTrack& track, const SatelliteRange& range) const noexcept;
-    /// m; `error_sigma_m`: of what stays, at that elevation. Only one that the device states is taken as it is.
+    /// A sigma that the device states is taken as it is.
     double code_sigma_m(const SatelliteRange& range, double elevation_sine) const noexcept;
     double rate_sigma_mps(const SatelliteRange& range, double elevation_sine) const noexcept;
     double satellite_error_sigma_m(double elevation_sine) const noexcept;

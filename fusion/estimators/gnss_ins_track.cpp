@@ -94,7 +94,8 @@ void GnssInsTrack::move_core(const inertial::ErrorTransition& transition, const 
     covariance.topLeftCorner<n, n>() += noise;
     // Groves eq. 9.151: the drift walks, and its integral with it.
     const double drift = variance_of(model_.clock_drift_mps_rts) * dt_s;
-    covariance(clock_offset_at, clock_offset_at) += variance_of(model_.clock_phase_m_rts) * dt_s + drift * dt_s * dt_s / 3;
+    covariance(clock_offset_at, clock_offset_at) +=
+        variance_of(model_.clock_phase_m_rts) * dt_s + drift * dt_s * dt_s / 3;
     covariance(clock_offset_at, clock_drift_at) += drift * dt_s / 2;
     covariance(clock_drift_at, clock_drift_at) += drift;
     wander(
