@@ -36,10 +36,21 @@ const YamlNode& section(const YamlNode& root, std::string_view name) {
     return found ? *found : absent;
 }
 
+/// `node`: the name of an estimator; nullptr where none is named.
+void check_origin(const YamlNode* node, const Site& site, Problems& problems) {
+    const EstimatorRow* row = node != nullptr ? find_estimator(node->text) : nullptr;
+    if (row != nullptr && row->needs_origin && !site.origin)
+        problems.add(node->mark,
+                     fmt::format("estimator {} needs site.origin: where on the Earth the site lies", row->name));
+}
+
 void check_limits_between(const YamlNode& root, const Settings& settings, Problems& problems) {
     constexpr std::size_t longest_socket_path = 107; // sockaddr_un::sun_path less its terminating zero
     const auto& fusion = settings.engine.fusion;
     find_named(section(root, "fusion").find("estimator"), "estimator", estimator_table(), problems);
+    check_origin(section(root, "fusion").find("estimator"), settings.engine.site, problems);
+    for (const YamlNode& target : section(root, "targets").children)
+        check_origin(target.find("estimator"), settings.engine.site, problems);
     const Address master = settings.engine.clock_sync.master;
     if (master != no_address && settings.engine.site.find_anchor(master) == nullptr)
         problems.add(section(root, "clock_sync").find("master")->mark,

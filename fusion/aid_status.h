@@ -35,6 +35,9 @@ enum class Exclusion : std::uint8_t {
     disabled,
     peer_without_position,
     no_news,
+    too_low,
+    too_weak,
+    site_without_origin,
     count_
 };
 
@@ -69,6 +72,9 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"disabled", "switched off in the settings"},
     {"peer_without_position", "the tag at the other end has no position itself"},
     {"no_news", "what the tag at the other end knows would not make this one surer"},
+    {"too_low", "the satellite stands too low in the sky"},
+    {"too_weak", "the signal is weaker than the settings allow"},
+    {"site_without_origin", "the site does not say where on the Earth it lies: set site.origin"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {

@@ -9,7 +9,7 @@
 namespace locus {
 
 /// What stands between a target and a pose; `nothing` when there is one.
-enum class Missing : std::uint8_t { nothing, measurements, anchors, geometry, agreement, fresh_measurements, count_ };
+enum class Missing : std::uint8_t { nothing, measurements, anchors, geometry, agreement, fresh_measurements, site_origin, count_ };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Missing::count_)> missing_sentences{
     "nothing",
@@ -19,6 +19,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Missing::
     "`planar: true` and `height_m` (locus config --reference); if on one line, add an anchor beside it",
     "the first measurements do not agree on a position",
     "nothing heard of this target for too long",
+    "the site does not say where on the Earth it lies: set site.origin (locus config --reference)",
 };
 
 constexpr std::string_view missing_sentence(Missing missing) {

@@ -38,6 +38,7 @@ struct EstimatorRow {
     OptionTable options;
     /// `site` outlives the estimator; `settings` is what options.make() gave, filled.
     std::unique_ptr<Estimator> (*make)(const Site& site, const void* settings);
+    bool needs_origin = false; ///< the site must say where on the Earth it lies
 };
 
 std::span<const EstimatorRow> estimator_table();

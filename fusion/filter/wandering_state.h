@@ -22,10 +22,10 @@ struct WanderModel {
 };
 
 /// `MaxCore`: room for the core, which always begins with position, velocity and a third number of each axis.
-template <int MaxCore>
+template <int MaxCore, int MaxWanderers = 24>
 class WanderingState {
   public:
-    static constexpr int max_wanderers = 24;
+    static constexpr int max_wanderers = MaxWanderers;
     static constexpr int max_size = MaxCore + max_wanderers;
     using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
@@ -71,16 +71,16 @@ class WanderingState {
     std::uint64_t asked_ = 0;
 };
 
-template <int MaxCore>
-void WanderingState<MaxCore>::clear(int core) noexcept {
+template <int MaxCore, int MaxWanderers>
+void WanderingState<MaxCore, MaxWanderers>::clear(int core) noexcept {
     core_ = core;
     state.setZero(core);
     covariance.setZero(core, core);
 }
 
-template <int MaxCore>
+template <int MaxCore, int MaxWanderers>
 template <class Move>
-void WanderingState<MaxCore>::wander(const Move& move, double dt_s) noexcept {
+void WanderingState<MaxCore, MaxWanderers>::wander(const Move& move, double dt_s) noexcept {
     for (int k = core_; k < size(); ++k) {
         const WanderModel& model = wanderers_[k - core_].model;
         const WanderStep step = wander_step(model.sigma, model.time_s, dt_s);
@@ -94,8 +94,8 @@ void WanderingState<MaxCore>::wander(const Move& move, double dt_s) noexcept {
         for (int i = 0; i < k; ++i) covariance(k, i) = covariance(i, k);
 }
 
-template <int MaxCore>
-void WanderingState<MaxCore>::change_core(const CoreMap& map) noexcept {
+template <int MaxCore, int MaxWanderers>
+void WanderingState<MaxCore, MaxWanderers>::change_core(const CoreMap& map) noexcept {
     const int now = core_, then = static_cast<int>(map.rows()), wanderers = size() - core_;
     const Matrix before = covariance;
     const Vector state_before = state;
@@ -109,8 +109,8 @@ void WanderingState<MaxCore>::change_core(const CoreMap& map) noexcept {
     covariance.template triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
-template <int MaxCore>
-int WanderingState<MaxCore>::claim() noexcept {
+template <int MaxCore, int MaxWanderers>
+int WanderingState<MaxCore, MaxWanderers>::claim() noexcept {
     if (size() - core_ < max_wanderers) {
         const int k = size();
         state.conservativeResize(k + 1);
@@ -122,8 +122,8 @@ int WanderingState<MaxCore>::claim() noexcept {
     return core_ + static_cast<int>(oldest - wanderers_.begin());
 }
 
-template <int MaxCore>
-int WanderingState<MaxCore>::wanderer(std::int32_t key, const WanderModel& model) noexcept {
+template <int MaxCore, int MaxWanderers>
+int WanderingState<MaxCore, MaxWanderers>::wanderer(std::int32_t key, const WanderModel& model) noexcept {
     const auto known = wanderers_.begin() + (size() - core_);
     const auto found = std::find_if(wanderers_.begin(), known, [&](const Wanderer& w) { return w.key == key; });
     if (found != known) {

@@ -77,6 +77,25 @@ def estimator_yaml(**settings):
 CALIBRATED_KIT = {"common_range_error_sigma_m": 0}
 
 
+def stretches(text, first_s, last_s):
+    """START,DURATION[,PERIOD] in seconds after the first time: pairs of begin and end in the recording's time."""
+    try:
+        start_s, duration_s, *period = [float(part) for part in text.split(",")]
+        period_s = period[0] if period else float("inf")
+    except (ValueError, IndexError):
+        raise Wrong(f"--outage wants START,DURATION or START,DURATION,PERIOD in seconds, not {text}")
+    if start_s < 0 or duration_s <= 0 or period_s <= duration_s:
+        raise Wrong("--outage wants a START of 0 or later and a PERIOD longer than its DURATION")
+    begin_s = first_s + start_s
+    while begin_s + duration_s <= last_s:
+        yield begin_s, begin_s + duration_s
+        begin_s += period_s
+
+
+def within(time_s, stretches):
+    return any(begin <= time_s < end for begin, end in stretches)
+
+
 def write(path, lines):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("".join(line + "\n" for line in lines))

@@ -53,6 +53,9 @@ std::vector<std::string> table(const Statistics& statistics) {
     table.add(row("horizontal", statistics.horizontal));
     for (std::size_t axis = 0; axis < 3; ++axis)
         table.add(row(axis_names[axis], statistics.axes[axis], fmt::format("{:+.3f}", statistics.bias_m[axis])));
+    table.add(row("less bias: horizontal", statistics.horizontal_less_bias));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        table.add(row(std::string("less bias: ") + axis_names[axis], statistics.axes_less_bias[axis]));
     return table.lines();
 }
 
@@ -103,8 +106,12 @@ nlohmann::json report_json(const Evaluation& evaluation) {
                           {"transformation", to_json(similarity)},
                           {"spatial", to_json(statistics.spatial)},
                           {"horizontal", to_json(statistics.horizontal)},
+                          {"horizontal_less_bias", to_json(statistics.horizontal_less_bias)},
                           {"bias_m", statistics.bias_m}};
-    for (std::size_t axis = 0; axis < 3; ++axis) result[axis_names[axis]] = to_json(statistics.axes[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        result[axis_names[axis]] = to_json(statistics.axes[axis]);
+        result[std::string(axis_names[axis]) + "_less_bias"] = to_json(statistics.axes_less_bias[axis]);
+    }
     if (const auto& held = statistics.horizontal_coverage) result["horizontal_coverage"] = to_json(*held);
     if (const auto& held = statistics.vertical_coverage) result["vertical_coverage"] = to_json(*held);
     return result;

@@ -27,6 +27,11 @@ double mean(const Errors& errors, std::size_t axis) {
     return sum / static_cast<double>(errors.size());
 }
 
+Errors less(Errors errors, const std::array<double, 3>& bias_m) {
+    for (auto& error : errors) error -= Eigen::Vector3d(bias_m[0], bias_m[1], bias_m[2]);
+    return errors;
+}
+
 double horizontal(const Eigen::Vector3d& error) { return error.head<2>().norm(); }
 
 std::optional<Coverage> coverage(std::span<const double> errors_m, std::span<const Pair> pairs, double Pair::* bound_m,
@@ -79,6 +84,9 @@ Statistics statistics(std::span<const Pair> pairs, const Similarity& similarity)
         result.axes[axis] = figures(along(all, axis));
         result.bias_m[axis] = mean(all, axis);
     }
+    const Errors centred = less(all, result.bias_m);
+    for (std::size_t axis = 0; axis < 3; ++axis) result.axes_less_bias[axis] = figures(along(centred, axis));
+    result.horizontal_less_bias = figures(magnitudes(centred, horizontal));
     result.horizontal_coverage = coverage(in_plane, pairs, &Pair::horizontal_bound_m, similarity.scale);
     result.vertical_coverage = coverage(along(all, 2), pairs, &Pair::vertical_bound_m, similarity.scale);
     return result;

@@ -38,6 +38,9 @@ struct Statistics {
     Figures horizontal;
     std::array<Figures, 3> axes;
     std::array<double, 3> bias_m{}; ///< mean of estimate less truth along each axis
+    /// Of the errors less their bias: an RMSE there is the standard deviation. For truths whose own place is uncertain.
+    std::array<Figures, 3> axes_less_bias;
+    Figures horizontal_less_bias;
     std::optional<Coverage> horizontal_coverage;
     std::optional<Coverage> vertical_coverage;
 };

@@ -60,6 +60,10 @@ const Case cases[] = {
      "1:19: socket is longer than the 107 letters that the kernel takes"},
     {"MoreTargetsThanRoom", "fusion: {max_targets: 1}\ntargets: [{name: a, address: 1}, {name: b, address: 2}]",
      "2:10: 2 targets are listed, but fusion.max_targets is 1"},
+    {"EstimatorWithoutOrigin", "site: {anchors: []}\nfusion: {estimator: gnss_ins}",
+     "2:21: estimator gnss_ins needs site.origin: where on the Earth the site lies"},
+    {"TargetWithoutOrigin", "site: {anchors: []}\ntargets: [{name: car, address: 1, estimator: gnss_ins}]",
+     "2:45: estimator gnss_ins needs site.origin: where on the Earth the site lies"},
     {"ClockOfNoAnchor", "site: {anchors: [{name: a, address: 1, position_site_m: [0, 0, 0]}]}\nclock_sync: {master: 7}",
      "2:22: master is not the address of an anchor of the site"},
     // Missing.
