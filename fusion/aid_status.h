@@ -34,6 +34,18 @@ enum class Exclusion : std::uint8_t {
     disabled,
     peer_without_position,
     no_news,
+    no_ephemeris,
+    ephemeris_too_old,
+    unhealthy,
+    impossible_orbit,
+    impossible_range,
+    impossible_time,
+    other_signal,
+    signal_too_weak,
+    below_mask,
+    inconsistent,
+    no_position_yet,
+    not_given_out,
     count_
 };
 
@@ -68,6 +80,18 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"disabled", "switched off in the settings"},
     {"peer_without_position", "the tag at the other end has no position itself"},
     {"no_news", "what the tag at the other end knows would not make this one surer"},
+    {"no_ephemeris", "what the satellite says of its orbit has not been heard in full yet"},
+    {"ephemeris_too_old", "what the satellite last said of its orbit is too old"},
+    {"unhealthy", "the satellite says itself that it is not to be used"},
+    {"impossible_orbit", "what the satellite says of its orbit or clock cannot be"},
+    {"impossible_range", "no satellite can be as near or as far as this pseudorange says"},
+    {"impossible_time", "the receiver's time lies in no week of GPS"},
+    {"other_signal", "of each satellite only the signal at L1 (E1, B1I) is used"},
+    {"signal_too_weak", "the signal is weaker than gnss.min_carrier_to_noise_dbhz"},
+    {"below_mask", "the satellite stands lower than gnss.elevation_mask_deg above the horizon"},
+    {"inconsistent", "the pseudorange does not agree with those of the other satellites"},
+    {"no_position_yet", "too few satellites for a first position, which the corrections for the air need"},
+    {"not_given_out", "gnss.satellite_ranges is switched off and no fix could be made of it"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {

@@ -3,6 +3,7 @@
 #include "fusion/uwb/survey/correlation.h"
 #include "fusion/uwb/survey/walk.h"
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <cmath>
