@@ -16,6 +16,7 @@ struct Reception {
     double elevation_rad = 0;
     float carrier_to_noise_dbhz = unknown_f;
     float noise_m = unknown_f; ///< as the receiver states it
+    double orbit_times = 1;    ///< how much worse the satellite says that its orbit and clock are than at their best
 };
 
 inline double carrier_to_noise_or_usual(float dbhz) {
@@ -34,7 +35,7 @@ inline double noise_variance_m2(const GnssSettings& settings, const Reception& o
 inline double code_variance_m2(const GnssSettings& settings, const Reception& of) {
     const double sine = std::max(0.05, std::sin(of.elevation_rad));
     const double factor = of.constellation == constellation::glonass ? 1.5 : 1;
-    return settings.orbit_sigma_m * settings.orbit_sigma_m +
+    return std::pow(of.orbit_times * settings.orbit_sigma_m, 2) +
            std::pow(factor * settings.code_sigma_m, 2) * (1 + 1 / sine) + noise_variance_m2(settings, of);
 }
 

@@ -40,8 +40,10 @@ inline constexpr std::array gnss_options{
         "max_ephemeris_age_s", "s", 600, 86400,
         "How far from its reference time an ephemeris is used: GPS, QZSS, Galileo, BeiDou."),
     option<&GnssSettings::max_glonass_age_s>("max_glonass_age_s", "s", 600, 43200, "The same for GLONASS."),
-    option<&GnssSettings::orbit_sigma_m>("orbit_sigma_m", "m", 0.01, 100,
-                                         "Standard deviation of what broadcast orbit and clock add to a pseudorange."),
+    option<&GnssSettings::orbit_sigma_m>(
+        "orbit_sigma_m", "m", 0.01, 100,
+        "Standard deviation of what broadcast orbit and clock add to a pseudorange, of a "
+        "satellite that states the best accuracy; the others in proportion."),
     option<&GnssSettings::code_sigma_m>(
         "code_sigma_m", "m", 0.01, 100,
         "Of multipath: its part that is the same everywhere, and its part at the zenith that grows towards the "

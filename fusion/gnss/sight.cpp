@@ -5,6 +5,7 @@
 #include "fusion/gnss/satellite.h"
 #include "fusion/gnss/signals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,15 @@ double group_delay_s(const KeplerEphemeris& e) {
     return e.group_delay_s[e.constellation == constellation::galileo ? 1 : 0];
 }
 double group_delay_s(const GlonassEphemeris& /*e*/) { return 0; }
+
+/// IS-GPS-200, 20.3.3.3.1.3: the upper ends of user range accuracy, over the first of them; BeiDou's index means the
+/// same (BDS-SIS-ICD B1I, 5.2.4.5). Galileo states 3.12 m of all its satellites, GLONASS nothing here.
+double orbit_times(const KeplerEphemeris& e) {
+    constexpr std::array upper_m{2.4, 3.4, 4.85, 6.85, 9.65, 13.65, 24.0, 48.0, 96.0, 192.0, 384.0, 768.0, 1536.0};
+    if (e.constellation == constellation::galileo) return 1;
+    return upper_m[std::min<std::size_t>(e.accuracy, upper_m.size() - 1)] / upper_m[0];
+}
+double orbit_times(const GlonassEphemeris& /*e*/) { return 1; }
 
 /// Orbits of all constellations, and clocks as far as their fields reach, with much to spare.
 bool is_possible(const SatelliteState& state) {
@@ -62,7 +72,8 @@ std::optional<Sight> sight_of(const GnssRaw& raw, const Ephemeris& ephemeris) no
     if (raw.carrier_cycles != 0) sight.carrier_m = wavelength_m * raw.carrier_cycles + light_mps * state.clock_s;
     sight.rate_mps = rate_mps(raw, state, wavelength_m);
     sight.carrier_hz = hz;
-    sight.reception = {raw.constellation, 0, raw.carrier_to_noise_dbhz, raw.sigma_pseudorange_m};
+    sight.reception = {raw.constellation, 0, raw.carrier_to_noise_dbhz, raw.sigma_pseudorange_m,
+                       std::visit([](const auto& e) { return orbit_times(e); }, ephemeris)};
     return sight;
 }
 
