@@ -124,7 +124,7 @@ Exclusion Receivers::sight(const GnssRaw& raw, const GnssRaw* accepted) noexcept
     if (accepted && same_satellite(*accepted, raw))
         return accepted->signal == raw.signal ? Exclusion::duplicate : Exclusion::other_signal;
     if (!is_possible_pseudorange(raw.pseudorange_m)) return Exclusion::impossible_range;
-    if (double{raw.carrier_to_noise_dbhz} < settings_.min_carrier_to_noise_dbhz) return Exclusion::signal_too_weak;
+    if (double{raw.carrier_to_noise_dbhz} < settings_.min_carrier_to_noise_dbhz) return Exclusion::too_weak;
     const auto [ephemeris, reason] = ephemerides_.find(raw.constellation, raw.satellite, time_of(raw));
     if (ephemeris == nullptr) return reason;
     const auto sight = sight_of(raw, *ephemeris);

@@ -27,9 +27,9 @@ void Observer::observe(std::span<SightFrom> sights, const Sky& sky, const Eigen:
     const Geodetic at = geodetic(from_ecef_m);
     const Eigen::Matrix3d axes = enu_to_ecef(at);
     for (SightFrom& s : sights) {
-        if (s.reason != Exclusion::none && s.reason != Exclusion::below_mask) continue;
+        if (s.reason != Exclusion::none && s.reason != Exclusion::too_low) continue;
         const LookAngles look = look_angles(axes, s.towards);
-        s.reason = look.elevation_rad < mask_rad_ ? Exclusion::below_mask : Exclusion::none;
+        s.reason = look.elevation_rad < mask_rad_ ? Exclusion::too_low : Exclusion::none;
         if (s.reason == Exclusion::none) take_out_air(s, sky, at, look);
     }
 }

@@ -124,7 +124,7 @@ TEST_F(ReceiversTest, EveryRawObservationIsCountedOnceWithItsReason) {
     step();
     const EngineCounters& counters = engine->counters();
     EXPECT_EQ(counters.received, counters.used + counters.refused + counters.late);
-    EXPECT_GT(count(Exclusion::below_mask), 0u);
+    EXPECT_GT(count(Exclusion::too_low), 0u);
     for (const AidStatus& status : engine->sources()) {
         const bool used = status.kind == SourceKind::satellite && status.last_verdict.reason == Exclusion::none;
         EXPECT_TRUE(!used || status.last_observation > 1e7) << "a pseudorange, not what the words said";
@@ -225,10 +225,10 @@ TEST_F(ReceiversTest, EachReasonIsGiven) {
     for (const GnssRaw& raw : again) submit(raw);
     step();
     for (const auto reason :
-         {Exclusion::no_ephemeris, Exclusion::unhealthy, Exclusion::signal_too_weak, Exclusion::impossible_range,
+         {Exclusion::no_ephemeris, Exclusion::unhealthy, Exclusion::too_weak, Exclusion::impossible_range,
           Exclusion::other_signal, Exclusion::duplicate, Exclusion::impossible_time})
         EXPECT_GE(count(reason), 1u) << exclusion_name(reason);
-    EXPECT_GE(count(Exclusion::inconsistent) + count(Exclusion::below_mask), 1u);
+    EXPECT_GE(count(Exclusion::inconsistent) + count(Exclusion::too_low), 1u);
     for (const GnssRaw& raw : epoch(20000)) submit(raw);
     step();
     EXPECT_GT(count(Exclusion::ephemeris_too_old), 5u);
