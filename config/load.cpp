@@ -12,13 +12,15 @@ namespace locus {
 namespace config {
 namespace {
 
-constexpr std::array<FlatSection, 6> flat{{
+constexpr std::array<FlatSection, 7> flat{{
     {"fusion", "The engine: how often, how late, how many.", fusion_options,
      [](Settings& settings) -> void* { return &settings.engine.fusion; }},
     {"clock_sync", "Clocks of anchors that tell raw times of arrival (docs/clock-sync.md).", clock_sync_options,
      [](Settings& settings) -> void* { return &settings.engine.clock_sync; }},
     {"anchor_health", "When an anchor is called blocked or moved (docs/anchors.md).", uwb::anchor_health_options,
      [](Settings& settings) -> void* { return &settings.engine.anchor_health; }},
+    {"gnss", "Raw observations of GNSS receivers (docs/gnss.md).", gnss_options,
+     [](Settings& settings) -> void* { return &settings.engine.gnss; }},
     {"publish", "The socket that clients read.", publish_options,
      [](Settings& settings) -> void* { return &settings.publish; }},
     {"log", "What is written to the journal.", log_options, [](Settings& settings) -> void* { return &settings.log; }},
@@ -26,8 +28,9 @@ constexpr std::array<FlatSection, 6> flat{{
      [](Settings& settings) -> void* { return &settings.realtime; }},
 }};
 
-constexpr std::array<std::string_view, 10> section_names{
-    "site", "targets", "inputs", "fusion", "clock_sync", "anchor_health", "estimators", "publish", "log", "realtime"};
+constexpr std::array<std::string_view, 11> section_names{"site",       "targets",       "inputs",  "fusion",
+                                                         "clock_sync", "anchor_health", "gnss",    "estimators",
+                                                         "publish",    "log",           "realtime"};
 
 /// An absent section reads like an empty one.
 const YamlNode& section(const YamlNode& root, std::string_view name) {

@@ -31,7 +31,9 @@ void add(Counters& counters, Exclusion reason, std::uint64_t step) {
         counters.refused += step;
 }
 
+/// What a satellite says of its orbit is counted, but it is no observation: its status tells of its ranges.
 void write_down(AidStatus& status, const Measurement& measurement, const Verdict& verdict) {
+    if (std::holds_alternative<GnssNavigation>(measurement.observation)) return;
     const bool first = status.last_verdict.reason == Exclusion::not_seen_yet;
     const bool stamp_is_wrong = verdict.reason == Exclusion::stamp_in_future;
     if (!first && !stamp_is_wrong && measurement.time < status.last_time) return;

@@ -5,6 +5,7 @@
 #include "fusion/filter/fixed_lag.h"
 #include "fusion/fresh_estimators.h"
 #include "fusion/geometry/error_bound.h"
+#include "fusion/gnss/receivers.h"
 #include "fusion/identity.h"
 #include "fusion/target_table.h"
 #include "fusion/uwb/clock_sync/synchroniser.h"
@@ -29,7 +30,7 @@ bool all_finite(const std::array<double, Size>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
 }
 
-/// A difference that is made of arrivals comes into the timeline this long before it would be too late.
+/// What is made of several measurements comes into the timeline this long before it would be too late.
 Duration longest_wait(const FusionSettings& fusion) {
     return duration_from_s(std::max(0.0, fusion.window_s - 2 / fusion.rate_hz));
 }
@@ -56,14 +57,20 @@ void fill(Pose& pose, const Estimate& estimate) {
     if (pose.estimate.missing == Missing::nothing) bound(pose);
 }
 
+/// What has had its effect as soon as it came; it waits for no tick.
+bool is_done_with(const Observation& observation) {
+    return std::holds_alternative<ClockSync>(observation) || std::holds_alternative<GnssNavigation>(observation);
+}
+
 } // namespace
 
-struct Engine::Impl final : uwb::ClockSynchroniser::Output {
+struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Output {
     explicit Impl(EngineSettings given)
         : settings(std::move(given)), window(duration_from_s(settings.fusion.window_s)), fresh(settings),
           targets(settings, fresh), book(settings.site),
           clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)),
-          anchors(settings.site, settings.anchor_health, static_cast<std::size_t>(settings.fusion.max_targets)) {
+          anchors(settings.site, settings.anchor_health, static_cast<std::size_t>(settings.fusion.max_targets)),
+          receivers(settings.site, settings.gnss, longest_wait(settings.fusion)) {
         const auto targets_at_most = static_cast<std::size_t>(settings.fusion.max_targets);
         poses.reserve(targets_at_most);
         const auto ticks = std::lround(settings.fusion.smooth_lag_s * settings.fusion.rate_hz);
@@ -76,12 +83,14 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     Timestamp horizon() const noexcept { return now - window; }
     void deliver(const Measurement& measurement, Delivery delivery, Timestamp arrival) noexcept;
     Exclusion first_look(const Measurement& measurement, Timestamp arrival) const noexcept;
-    Verdict hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record) noexcept;
+    Verdict hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record,
+                      Timestamp arrival) noexcept;
     Measurement with_peer(const Measurement& measurement, const Delivery& delivery) const noexcept;
     Exclusion hand_to_target(const Measurement& measurement, const Delivery& delivery,
                              const AidBook::Record& record) noexcept;
-    void take(const Measurement& difference, const AidBook::Record& record) noexcept override;
+    void take(const Measurement& made, const AidBook::Record& record) noexcept override;
     void judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept override;
+    void tell(const Measurement& fix) noexcept override;
     void step_target(TargetTable::Slot slot, Timestamp tick) noexcept;
     void look_back(TargetTable::Slot slot, const Estimate& foreseen) noexcept;
 
@@ -94,6 +103,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output {
     AnchorWatch anchors;
     std::vector<filter::FixedLag> lags; ///< of all slots; empty: nobody waits
     std::vector<Pose> smoothed;
+    gnss::Receivers receivers;
     std::vector<Pose> poses;                                                         ///< of the slots in use
     Timestamp now = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2); ///< newest arrival or tick
     Timestamp last_tick = Timestamp::min();
@@ -103,8 +113,8 @@ void Engine::Impl::deliver(const Measurement& measurement, Delivery delivery, Ti
     const bool strangers = keep_strangers(delivery, settings.site);
     AidBook::Record record = book.hear(measurement, delivery, arrival);
     Verdict verdict{strangers ? Exclusion::unknown_source : first_look(measurement, arrival)};
-    const bool waits = verdict.reason == Exclusion::none && !std::holds_alternative<ClockSync>(measurement.observation);
-    if (verdict.reason == Exclusion::none) verdict = hand_over(measurement, delivery, record);
+    const bool waits = verdict.reason == Exclusion::none && !is_done_with(measurement.observation);
+    if (verdict.reason == Exclusion::none) verdict = hand_over(measurement, delivery, record, arrival);
     if (verdict.reason != Exclusion::none || !waits) book.judge(measurement, record, verdict);
 }
 
@@ -115,12 +125,17 @@ Exclusion Engine::Impl::first_look(const Measurement& measurement, Timestamp arr
     return Exclusion::none;
 }
 
-/// none: it waits for its tick, but for a sync packet, which has had its effect.
-Verdict Engine::Impl::hand_over(const Measurement& measurement, const Delivery& delivery,
-                                const AidBook::Record& record) noexcept {
+/// none: it waits for its tick, or it has had its effect.
+Verdict Engine::Impl::hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record,
+                                Timestamp arrival) noexcept {
     if (const auto* sync = std::get_if<ClockSync>(&measurement.observation))
         return delivery.sources[0] == sync->receiver ? clocks.hear(*sync, measurement.time) : Verdict{};
     if (std::holds_alternative<Arrival>(measurement.observation)) return {clocks.hear(measurement, record)};
+    if (std::holds_alternative<GnssRaw>(measurement.observation))
+        return {receivers.hear(measurement, record, arrival, *this)};
+    if (const auto* words = std::get_if<GnssNavigation>(&measurement.observation))
+        return receivers.hear(*words), Verdict{};
+    if (const auto* fix = std::get_if<GnssFix>(&measurement.observation)) receivers.hear(*fix, measurement.time);
     return {hand_to_target(measurement, delivery, record)};
 }
 
@@ -152,11 +167,15 @@ Measurement Engine::Impl::with_peer(const Measurement& measurement, const Delive
     return told;
 }
 
-void Engine::Impl::take(const Measurement& difference, const AidBook::Record& record) noexcept {
-    Exclusion reason = difference.time < horizon() ? Exclusion::late : Exclusion::none;
-    for (const Delivery& delivery : deliveries_of(difference, settings.site))
-        if (reason == Exclusion::none) reason = hand_to_target(difference, delivery, record);
-    if (reason != Exclusion::none) judge(difference, record, reason);
+void Engine::Impl::take(const Measurement& made, const AidBook::Record& record) noexcept {
+    Exclusion reason = made.time < horizon() ? Exclusion::late : Exclusion::none;
+    for (const Delivery& delivery : deliveries_of(made, settings.site))
+        if (reason == Exclusion::none) reason = hand_to_target(made, delivery, record);
+    if (reason != Exclusion::none) judge(made, record, reason);
+}
+
+void Engine::Impl::tell(const Measurement& fix) noexcept {
+    for (const Delivery& delivery : deliveries_of(fix, settings.site)) take(fix, book.hear(fix, delivery, now));
 }
 
 void Engine::Impl::judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept {
@@ -199,6 +218,7 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->book.update_rates(tick);
     impl_->clocks.run(tick, *impl_);
     impl_->smoothed.clear();
+    impl_->receivers.run(tick, *impl_);
     for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
         impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
     impl_->anchors.step(tick, impl_->poses, impl_->book);

@@ -4,6 +4,7 @@
 
 #include "fusion/aid_status.h"
 #include "fusion/estimators/estimator.h"
+#include "fusion/gnss/settings.h"
 #include "fusion/option.h"
 #include "fusion/pose.h"
 #include "fusion/site.h"
@@ -69,6 +70,7 @@ struct EngineSettings {
     FusionSettings fusion;
     ClockSyncSettings clock_sync;
     uwb::AnchorHealthSettings anchor_health;
+    GnssSettings gnss;
     Site site;
     std::vector<TargetSettings> targets;
     std::vector<EstimatorSettings> estimators; ///< only those whose settings differ from the defaults need be here

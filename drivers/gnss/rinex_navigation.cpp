@@ -38,7 +38,29 @@ void Navigation::read_header(std::string_view line, std::string& error) {
         // Version 2 has a file for each constellation, and version 3.0x may.
         system_ = kind_.type == 'G' ? 'R' : 'G';
     }
+    read_ionosphere(line, error);
     header_ended_ = label(line) == "END OF HEADER";
+}
+
+/// Version 2 "  .1118D-07 ..." with a label of its own for alpha and beta, version 3 "GPSA   .1118E-07 ...".
+void Navigation::read_ionosphere(std::string_view line, std::string& error) {
+    constexpr std::size_t width = 12;
+    const std::string_view name = label(line), which = columns(line, 0, 4);
+    const bool version3 = name == "IONOSPHERIC CORR";
+    const bool alpha = name == "ION ALPHA" || (version3 && which == "GPSA");
+    const bool beta = name == "ION BETA" || (version3 && which == "GPSB");
+    if (!alpha && !beta) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto value = real(columns(line, (version3 ? 5 : 2) + i * width, width));
+        if (!value) error = fmt::format("coefficient {} of the ionosphere is no number", i + 1);
+        if (!value) return;
+        (alpha ? ionosphere_.alpha : ionosphere_.beta)[i] = *value;
+    }
+    (alpha ? has_alpha_ : has_beta_) = true;
+}
+
+std::optional<Klobuchar> Navigation::ionosphere() const {
+    return has_alpha_ && has_beta_ ? std::optional(ionosphere_) : std::nullopt;
 }
 
 /// "G05 2019 04 27 20 00 00", in version 2 " 5 19  4 27 20  0  0.0".

@@ -1,8 +1,9 @@
-// Navigation files of RINEX 2 and 3 (RINEX 2.11, table A4 and A11; RINEX 3.05, tables A6 to A14), line by line, into
-// ephemerides.
+// Navigation files of RINEX 2 and 3 (RINEX 2.11, tables A3, A4 and A11; RINEX 3.05, tables A5 to A14), line by line,
+// into ephemerides, and the ionosphere of GPS that their header tells.
 #pragma once
 
 #include "drivers/gnss/rinex_text.h"
+#include "fusion/gnss/atmosphere.h"
 #include "fusion/gnss/ephemeris_collector.h"
 
 #include <vector>
@@ -25,6 +26,9 @@ class Navigation {
     /// The last record.
     std::optional<NavigationRecord> finish(std::string& error);
 
+    /// As the header says, which stands before the first record; empty where it says nothing of GPS.
+    std::optional<Klobuchar> ionosphere() const;
+
     /// Records of what is not read: SBAS, NavIC, Galileo's F/NAV.
     std::uint64_t passed_over() const { return passed_over_; }
 
@@ -37,10 +41,13 @@ class Navigation {
     std::string head_; ///< satellite and reference time
     std::vector<std::optional<double>> values_;
     std::uint64_t passed_over_ = 0;
+    Klobuchar ionosphere_;
+    bool has_alpha_ = false, has_beta_ = false;
 
     std::size_t shift() const { return kind_.version < 3 ? 3 : 4; }
     std::string_view head_of(std::string_view line) const;
     void read_header(std::string_view line, std::string& error);
+    void read_ionosphere(std::string_view line, std::string& error);
     void begin_record(std::string_view line, std::string& error);
     void read_values(std::string_view line, std::size_t begin, std::string& error);
 };

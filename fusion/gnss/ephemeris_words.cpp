@@ -5,6 +5,7 @@
 #include "fusion/gnss/galileo_inav.h"
 #include "fusion/gnss/glonass_strings.h"
 #include "fusion/gnss/lnav.h"
+#include "fusion/gnss/lnav_ionosphere.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +16,19 @@ namespace {
 /// Signals of u-blox on which a message is sent; the others send theirs on signal 0.
 constexpr std::uint8_t galileo_e1b = 1, beidou_b1i_d2 = 1;
 
+template <class Words>
+GnssNavigation with_words(GnssNavigation head, const Words& words) {
+    head.word_count = static_cast<std::uint8_t>(words.size());
+    std::ranges::copy(words, head.words.begin());
+    return head;
+}
+
 template <class Parts, class ToWords>
-std::vector<GnssNavigation> listed(const std::optional<Parts>& parts, GnssNavigation head, const ToWords& to_words) {
+std::vector<GnssNavigation> listed(const std::optional<Parts>& parts, const GnssNavigation& head,
+                                   const ToWords& to_words) {
     std::vector<GnssNavigation> all;
     if (!parts) return all;
-    for (const MessageBits& part : *parts) {
-        const auto words = to_words(part);
-        head.word_count = static_cast<std::uint8_t>(words.size());
-        std::ranges::copy(words, head.words.begin());
-        all.push_back(head);
-    }
+    for (const MessageBits& part : *parts) all.push_back(with_words(head, to_words(part)));
     return all;
 }
 
@@ -65,6 +69,15 @@ std::vector<GnssNavigation> words_of(const GlonassEphemeris& e, const GpsTime& s
 
 std::vector<GnssNavigation> encode(const Ephemeris& ephemeris, const GpsTime& sent, int leap_s) {
     return std::visit([&](const auto& e) { return words_of(e, sent, leap_s); }, ephemeris);
+}
+
+std::optional<GnssNavigation> encode(const Klobuchar& coefficients, std::uint8_t gps_satellite, const GpsTime& sent) {
+    const auto page = encode_lnav_ionosphere(coefficients, sent);
+    if (!page) return std::nullopt;
+    GnssNavigation head;
+    head.constellation = constellation::gps;
+    head.satellite = gps_satellite;
+    return with_words(head, lnav_words(*page));
 }
 
 } // namespace locus::gnss

@@ -2,6 +2,7 @@
 // goes into the fusion like what a receiver hears.
 #pragma once
 
+#include "fusion/gnss/atmosphere.h"
 #include "fusion/gnss/ephemeris_collector.h"
 
 #include <vector>
@@ -12,5 +13,8 @@ namespace locus::gnss {
 /// the broadcast; `leap_s`: GPS time less UTC. Empty when a value has no room in its field, or the constellation is
 /// none of those.
 std::vector<GnssNavigation> encode(const Ephemeris& ephemeris, const GpsTime& sent, int leap_s);
+
+/// The page of a GPS satellite that tells the ionosphere, likewise.
+std::optional<GnssNavigation> encode(const Klobuchar& coefficients, std::uint8_t gps_satellite, const GpsTime& sent);
 
 } // namespace locus::gnss

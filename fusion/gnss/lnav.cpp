@@ -113,14 +113,17 @@ std::array<std::uint32_t, 10> lnav_words(const MessageBits& subframe) noexcept {
     return words;
 }
 
+void stamp_lnav(MessageBits& subframe, unsigned number, const GpsTime& sent) noexcept {
+    const auto count = static_cast<std::uint32_t>(sent.second / subframe_s) % subframes_per_week;
+    subframe.set(0, 8, preamble).set(24, 17, count).set(43, 3, number);
+}
+
 std::optional<std::array<MessageBits, 3>> encode_lnav(const KeplerEphemeris& e, const GpsTime& sent) noexcept {
     std::array<MessageBits, 3> subframes{MessageBits{240}, MessageBits{240}, MessageBits{240}};
     FieldWriter writer{subframes};
     walk_clock(writer, e);
     walk_orbit(writer, e);
-    const auto count = static_cast<std::uint32_t>(sent.second / subframe_s);
-    for (std::uint32_t i = 0; i < subframes.size(); ++i)
-        subframes[i].set(0, 8, preamble).set(24, 17, (count + i) % subframes_per_week).set(43, 3, i + 1);
+    for (std::uint32_t i = 0; i < subframes.size(); ++i) stamp_lnav(subframes[i], i + 1, sent + i * subframe_s);
     subframes[0].set(48, 10, static_cast<std::uint32_t>(sent.week % week_modulus));
     subframes[2].set(216, 8, e.issue);
     const bool one_issue = e.issue == (e.issue_clock & 0xFF);

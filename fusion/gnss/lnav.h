@@ -23,6 +23,9 @@ std::optional<KeplerEphemeris> lnav_ephemeris(std::span<const MessageBits, 3> su
 /// the issues of clock and orbit are not one. What KeplerEphemeris does not hold (codes on L2, fit interval) is 0.
 std::optional<std::array<MessageBits, 3>> encode_lnav(const KeplerEphemeris& ephemeris, const GpsTime& sent) noexcept;
 
+/// Writes what every subframe begins with: preamble, time of week and its number, 1 to 5.
+void stamp_lnav(MessageBits& subframe, unsigned number, const GpsTime& sent) noexcept;
+
 /// The words of a subframe, with parity, as u-blox hands them over.
 std::array<std::uint32_t, 10> lnav_words(const MessageBits& subframe) noexcept;
 

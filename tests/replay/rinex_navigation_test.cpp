@@ -1,29 +1,14 @@
 // Navigation files turned into the words that the satellites broadcast: decoded again, the words give every number that
 // stands in the file, to its last digit.
-#include "drivers/gnss/rinex_navigation.h"
 #include "fusion/gnss/ephemeris_words.h"
 #include "tests/replay/data.h"
+#include "tests/replay/navigation_records.h"
 #include "tests/replay/printed_ephemeris.h"
 
 #include <gtest/gtest.h>
 
 namespace locus::gnss {
 namespace {
-
-std::vector<rinex::NavigationRecord> records_of(const std::filesystem::path& path) {
-    rinex::Navigation navigation;
-    std::vector<rinex::NavigationRecord> records;
-    std::string line, error;
-    const auto keep = [&](const std::optional<rinex::NavigationRecord>& record) {
-        EXPECT_EQ(error, "") << path << ": " << line;
-        if (record) records.push_back(*record);
-    };
-    std::ifstream file(path);
-    while (std::getline(file, line)) keep(navigation.read(line, error));
-    keep(navigation.finish(error));
-    EXPECT_EQ(navigation.passed_over(), 0u);
-    return records;
-}
 
 std::optional<Ephemeris> decoded(const rinex::NavigationRecord& record) {
     EphemerisCollector collector;
@@ -39,7 +24,7 @@ TEST_P(NavigationFile, ComesBackToTheDigit) {
     const auto& [name, count] = GetParam();
     const auto path = test::recorded(name);
     if (!path) GTEST_SKIP() << "no " << name << " in LOCUS_DATA or ../shared/data";
-    const auto ours = records_of(*path);
+    const auto ours = test::read_navigation_records(*path).records;
     const auto printed = test::read_rinex_records(*path);
     ASSERT_EQ(ours.size(), count);
     ASSERT_EQ(printed.size(), count);

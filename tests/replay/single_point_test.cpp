@@ -1,71 +1,117 @@
-// Satellite positions and clocks against the truth: a position from the pseudoranges of a recording and nothing else
-// lies within metres of where the receiver knew itself to be to centimetres (RTK).
-#include "drivers/gnss/ubx.h"
-#include "fusion/gnss/satellite.h"
+// Single points of recordings against their truth: out of an UBX log under open sky, and out of RINEX between high
+// houses.
 #include "tests/replay/data.h"
-#include "tests/replay/gnss_replay.h"
-#include "tests/replay/single_point.h"
+#include "tests/replay/imported.h"
+#include "tests/replay/receiver_run.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
 
 namespace locus::gnss {
 namespace {
 
-constexpr double frequency_l1_hz = 1575.42e6;
+using Track = std::map<double, Geodetic>; ///< by second of the week
 
-/// Two signals that together know nothing of the ionosphere.
-struct Pair {
-    std::uint8_t constellation, second_signal; ///< beside that at L1, whose number is 0
-    double second_hz;
-    int clock; ///< column of the receiver's clock in the equations
+/// "2025/08/28 17:30:39.749 40.0966916 -105.1471665 1601.4350000 ...", all of one day, which begins at `day_s`.
+Track read_rtk(const std::filesystem::path& path, double day_s) {
+    Track track;
+    std::ifstream file(path);
+    double hour = 0, minute = 0, second = 0;
+    Geodetic at;
+    for (std::string line; std::getline(file, line);)
+        if (std::sscanf(line.c_str(), "%*d/%*d/%*d %lf:%lf:%lf %lf %lf %lf", &hour, &minute, &second, &at.latitude_deg,
+                        &at.longitude_deg, &at.height_ellipsoid_m) == 6)
+            track[day_s + 3600 * hour + 60 * minute + second] = at;
+    return track;
+}
+
+/// "2051,46701,22.30115538,114.17900033,6.59589290"
+Track read_seconds(const std::filesystem::path& path) {
+    Track track;
+    std::ifstream file(path);
+    double second = 0;
+    Geodetic at;
+    for (std::string line; std::getline(file, line);)
+        if (std::sscanf(line.c_str(), "%*d,%lf,%lf,%lf,%lf", &second, &at.latitude_deg, &at.longitude_deg,
+                        &at.height_ellipsoid_m) == 4)
+            track[second] = at;
+    return track;
+}
+
+/// East and north of the truth at the same time, give or take 20 ms.
+std::vector<Eigen::Vector2d> errors_m(const test::ReceiverRun& run, const Track& truth) {
+    constexpr double together_s = 0.02;
+    std::vector<Eigen::Vector2d> errors;
+    for (const auto& one : run.fixes) {
+        const double second = to_s(one.time) - std::floor(to_s(one.time) / week_s) * week_s;
+        const auto found = truth.lower_bound(second - together_s);
+        if (found == truth.end() || found->first > second + together_s) continue;
+        const Eigen::Vector3d enu_m = enu_to_ecef(found->second).transpose() * (one.ecef_m() - ecef_m(found->second));
+        errors.emplace_back(enu_m.head<2>());
+    }
+    return errors;
+}
+
+struct Figures {
+    double median_m, most_m; ///< 50 and 95 % of the length
 };
-constexpr Pair pairs[]{{constellation::gps, 3, 1227.60e6, 3}, {constellation::galileo, 4, 1176.45e6, 4}};
 
-/// I/NAV gives the clock for E1 with E5b, GPS that for L1 with L2.
-double delay_s(const KeplerEphemeris& e) {
-    return e.constellation == constellation::galileo ? e.group_delay_s[1] - e.group_delay_s[0] : 0;
+Figures tell(const char* name, const std::vector<Eigen::Vector2d>& errors) {
+    std::vector<double> lengths_m;
+    for (const auto& error : errors) lengths_m.push_back(error.norm());
+    std::ranges::sort(lengths_m);
+    const Figures figures{lengths_m[lengths_m.size() / 2], lengths_m[lengths_m.size() * 95 / 100]};
+    std::printf("%s: %zu epochs, horizontally median %.2f m, 95 %% %.2f m, most %.2f m\n", name, errors.size(),
+                figures.median_m, figures.most_m, lengths_m.back());
+    return figures;
 }
 
-/// Of the last epoch.
-const GnssRaw* find(const Replay& replay, const KeplerEphemeris& e, std::uint8_t signal) {
-    for (const GnssRaw& raw : replay.raws) {
-        const bool last = replay.now - GpsTime{raw.gps_week, raw.receiver_time_s_in_gps_week} == 0;
-        if (last && raw.constellation == e.constellation && raw.satellite == e.satellite && raw.signal == signal)
-            return &raw;
+test::ReceiverRun run(const std::vector<Measurement>& measurements, const std::set<std::uint8_t>& which) {
+    test::ReceiverRun run{GnssSettings{}};
+    for (const Measurement& m : measurements) {
+        const auto* raw = std::get_if<GnssRaw>(&m.observation);
+        if (!raw || which.contains(raw->constellation)) run.hear(m);
     }
-    return nullptr;
+    run.finish();
+    return run;
 }
 
-std::vector<test::Ray> rays_of(const Replay& replay) {
-    std::vector<test::Ray> rays;
-    for (const auto& [name, ephemeris] : replay.ephemerides) {
-        const auto& e = std::get<KeplerEphemeris>(ephemeris);
-        for (const Pair& pair : pairs) {
-            const GnssRaw* first = find(replay, e, 0);
-            const GnssRaw* second = find(replay, e, pair.second_signal);
-            if (pair.constellation != e.constellation || e.health != 0 || !first || !second) continue;
-            const double ratio = std::pow(frequency_l1_hz / pair.second_hz, 2);
-            const double range_m = (ratio * first->pseudorange_m - second->pseudorange_m) / (ratio - 1);
-            rays.push_back(test::ray_of(e, replay.now, range_m, delay_s(e), pair.clock));
-        }
-    }
-    return rays;
-}
+const std::set<std::uint8_t> all{constellation::gps, constellation::galileo, constellation::beidou, constellation::qzss,
+                                 constellation::glonass};
 
-TEST(SinglePoint, LiesWithinMetresOfTheReceiversOwnFix) {
+/// The walk's RTK stands metres beside every solution without its base (rnx2rtkp 7.4 m E, 4.1 m N): figures with the
+/// mean removed tell the rest.
+TEST(SinglePoint, OfAWalk) {
     const auto log = test::recorded("gnss_imu_walk_drive/walk_0827/gnss_1730.ubx");
-    if (!log) GTEST_SKIP() << "no gnss_imu_walk_drive in LOCUS_DATA or ../shared/data";
-    Replay walk;
-    replay(make_ubx, UbxSettings{address(0)}, test::bytes_of(*log), walk);
-    const auto rays = rays_of(walk);
-    ASSERT_GE(rays.size(), 8u);
-    const GnssFix& fix = walk.fixes.back();
-    const Eigen::Vector3d truth_m = test::ecef_m(fix.latitude_deg, fix.longitude_deg, fix.height_ellipsoid_m);
-    const Eigen::Vector3d error_m = test::position_m(rays) - truth_m;
-    const double up_m = test::up_m(error_m, truth_m), horizontal_m = test::horizontal_m(error_m, truth_m);
-    std::printf("%zu satellites: %.2f m horizontally, %.2f m up\n", rays.size(), horizontal_m, up_m);
-    EXPECT_LT(horizontal_m, 10); // of one epoch, in hand; a wrong field of an ephemeris makes hundreds of metres
-    EXPECT_LT(std::abs(up_m), 15);
+    const auto rtk = test::recorded("gnss_imu_walk_drive/walk_0827/gnss_1730_sf.pos");
+    if (!log || !rtk) GTEST_SKIP() << "no gnss_imu_walk_drive in LOCUS_DATA or ../shared/data";
+    auto errors = errors_m(run(test::import({*log}).measurements, all), read_rtk(*rtk, 4 * 86400));
+    ASSERT_GT(errors.size(), 400u);
+    tell("walk_0827 as it is", errors);
+    Eigen::Vector2d mean_m{0, 0};
+    for (const auto& error : errors) mean_m += error / static_cast<double>(errors.size());
+    for (auto& error : errors) error -= mean_m;
+    std::printf("mean %.2f m east, %.2f m north\n", mean_m.x(), mean_m.y());
+    const Figures figures = tell("walk_0827, mean removed", errors);
+    EXPECT_LT(mean_m.norm(), 10);
+    EXPECT_LT(figures.median_m, 1) << "two minutes of a receiver that hardly moves";
+}
+
+TEST(SinglePoint, BetweenHighHouses) {
+    const std::string folder = "graphgnss_hk_tst/gps_solution_TST/";
+    const auto truth = test::recorded(folder + "groundTruth_TST.csv");
+    if (!truth) GTEST_SKIP() << "no graphgnss_hk_tst in LOCUS_DATA or ../shared/data";
+    const auto canyon =
+        test::import({*test::recorded(folder + "COM3_190428_124409.obs"), *test::recorded(folder + "hksc1180.19n"),
+                      *test::recorded(folder + "hksc1180.19b")});
+    const Track track = read_seconds(*truth);
+    tell("graphgnss TST, GPS alone", errors_m(run(canyon.measurements, {constellation::gps}), track));
+    const Figures figures = tell("graphgnss TST, all", errors_m(run(canyon.measurements, all), track));
+    EXPECT_LT(figures.median_m, 12.3) << "a plain single point with GPS alone: 12.3 m";
 }
 
 } // namespace

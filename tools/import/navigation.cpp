@@ -37,6 +37,7 @@ NavigationFile::NavigationFile(const std::string& path, Address tag) : tag_{tag}
     }
     add(navigation.finish(error));
     note();
+    ionosphere_ = navigation.ionosphere();
     if (navigation.passed_over() > 0)
         report_.left_out["records of SBAS, NavIC or Galileo's F/NAV"] = navigation.passed_over();
     std::ranges::stable_sort(records_, {}, &Record::sent);
@@ -71,7 +72,21 @@ void NavigationFile::begin_at(Timestamp begin) {
     records_.assign(kept.rbegin(), kept.rend());
 }
 
+/// Every satellite of GPS tells it, so whichever is first.
+void NavigationFile::read_ionosphere(std::vector<Item>& items) {
+    if (!ionosphere_ || records_.empty()) return;
+    const auto is_gps = [](const Record& r) { return satellite_of(r.printed.ephemeris).first == constellation::gps; };
+    const auto first = std::ranges::find_if(records_, is_gps);
+    const auto satellite = first == records_.end() ? 1U : satellite_of(first->printed.ephemeris).second;
+    auto words = gnss::encode(*ionosphere_, static_cast<std::uint8_t>(satellite), records_.front().printed.sent);
+    if (!words) ++report_.left_out["coefficients of the ionosphere that cannot be broadcast"];
+    if (!words) return;
+    words->tag = tag_;
+    items.push_back({records_.front().sent, *words});
+}
+
 bool NavigationFile::read(std::vector<Item>& items) {
+    read_ionosphere(items);
     for (const auto& [sent, printed] : records_) {
         auto words = gnss::encode(printed.ephemeris, printed.sent, printed.leap_s);
         if (words.empty()) ++report_.left_out["records with a value that cannot be broadcast"];

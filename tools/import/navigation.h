@@ -29,8 +29,10 @@ class NavigationFile final : public Source {
 
     Address tag_;
     std::vector<Record> records_; ///< in order of `sent`
+    std::optional<gnss::Klobuchar> ionosphere_;
 
     void add(const std::optional<gnss::rinex::NavigationRecord>& printed);
+    void read_ionosphere(std::vector<Item>& items);
 };
 
 } // namespace locus::importing

@@ -229,6 +229,7 @@ struct NavigationRead {
     std::vector<NavigationRecord> records;
     std::vector<std::string> problems;
     std::uint64_t passed_over = 0;
+    std::optional<Klobuchar> ionosphere;
 };
 
 NavigationRead read_navigation(const std::string& text) {
@@ -244,6 +245,7 @@ NavigationRead read_navigation(const std::string& text) {
     for (std::string line; std::getline(stream, line);) keep(navigation.read(line, error));
     keep(navigation.finish(error));
     read.passed_over = navigation.passed_over();
+    read.ionosphere = navigation.ionosphere();
     return read;
 }
 
@@ -280,6 +282,22 @@ TEST(RinexNavigation, Gps) {
     EXPECT_EQ(e.root_a, 5153.69);
     EXPECT_EQ(file.records[0].sent, (GpsTime{2050, 583140}));
     EXPECT_EQ(file.records[0].leap_s, 18);
+}
+
+TEST(RinexNavigation, IonosphereOfTheHeader) {
+    const Klobuchar expected{{0.1118e-7, 0.2235e-7, -0.5960e-7, -0.1192e-6}, {0.1044e6, 0.9830e5, -0.1966e6, -393200}};
+    const std::string version3 = version("3.04", 'N', 'M') +
+                                 headed("BDSA   9.3132D-09  8.9407D-08 -1.0133D-06  2.0862D-06", "IONOSPHERIC CORR") +
+                                 headed("GPSA   1.1180D-08  2.2350D-08 -5.9600D-08 -1.1920D-07", "IONOSPHERIC CORR") +
+                                 headed("GPSB   1.0440D+05  9.8300D+04 -1.9660D+05 -3.9320D+05", "IONOSPHERIC CORR");
+    const std::string version2 = version("2.11", 'N', ' ') +
+                                 headed("    .1118D-07   .2235D-07  -.5960D-07  -.1192D-06", "ION ALPHA") +
+                                 headed("    .1044D+06   .9830D+05  -.1966D+06  -.3932D+06", "ION BETA");
+    EXPECT_EQ(read_navigation(version3 + headed("", "END OF HEADER")).ionosphere, expected);
+    EXPECT_EQ(read_navigation(version2 + headed("", "END OF HEADER")).ionosphere, expected);
+    EXPECT_FALSE(read_navigation(navigation_head).ionosphere);
+    const auto odd = read_navigation(version("2.11", 'N', ' ') + headed("    .1118D-07   x", "ION ALPHA"));
+    EXPECT_EQ(odd.problems[0], "coefficient 2 of the ionosphere is no number");
 }
 
 TEST(RinexNavigation, Version2SaysNoLetterAndTwoDigitsOfTheYear) {
