@@ -18,8 +18,8 @@ constexpr double drawn_aside_sigma = 5, drawn_aside_m = 5;
 /// learnt wrongly is unlearnt in some hundred looks.
 constexpr double common_walk_m2 = 0.01 * 0.01;
 
-RangeEkfSettings reading(const uwb::AnchorHealthSettings& settings) {
-    RangeEkfSettings reading;
+ReadingSettings reading_of(const uwb::AnchorHealthSettings& settings) {
+    ReadingSettings reading;
     reading.range_sigma_m = settings.range_sigma_m;
     reading.range_difference_sigma_m = settings.range_difference_sigma_m;
     return reading;
@@ -38,7 +38,7 @@ uwb::EpochPrior prior_of(const Estimate& estimate) {
 } // namespace
 
 AnchorWatch::AnchorWatch(const Site& site, const uwb::AnchorHealthSettings& settings, std::size_t targets)
-    : site_(site), settings_(settings), reader_(site, reading(settings)), health_(site, settings, targets),
+    : site_(site), settings_(settings), reader_(site, reading_of(settings)), health_(site, settings, targets),
       gatherings_(targets) {
     waiting_.resize(most_waiting); // touches its pages now
     waiting_.clear();

@@ -19,6 +19,12 @@ inline Eigen::Quaterniond rotation(const Eigen::Vector3d& vector_rad) {
     return {std::cos(half), imaginary.x(), imaginary.y(), imaginary.z()};
 }
 
+/// Heading of a body, rad, counter-clockwise about the z axis from the x axis: where the body's x axis points.
+inline double heading_rad(const Eigen::Quaterniond& body_to_level) {
+    const Eigen::Vector3d forward = body_to_level * Eigen::Vector3d::UnitX();
+    return std::atan2(forward.y(), forward.x());
+}
+
 /// Level attitude from a specific force at rest, heading zero: the shortest turn that brings it upright.
 inline Eigen::Quaterniond levelled(const Eigen::Vector3d& specific_force_body) {
     return Eigen::Quaterniond::FromTwoVectors(specific_force_body, Eigen::Vector3d::UnitZ());

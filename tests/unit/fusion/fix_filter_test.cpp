@@ -5,6 +5,7 @@
 #include "fusion/filter/pca_window.h"
 #include "tests/support/heavy.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <cmath>

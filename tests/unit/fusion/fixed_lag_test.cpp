@@ -4,6 +4,7 @@
 #include "fusion/engine.h"
 #include "tests/unit/fusion/simulated_tag.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -5,6 +5,7 @@
 #include "tests/unit/fusion/simulated_flight.h"
 #include "tests/unit/fusion/simulated_tag.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -3,6 +3,7 @@
 #include "tests/unit/fusion/inertial/simulated_walker.h"
 #include "tests/unit/fusion/walker_bound.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 namespace locus::walkers {

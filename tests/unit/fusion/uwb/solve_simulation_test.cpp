@@ -5,6 +5,7 @@
 #include "tests/support/heavy.h"
 #include "tests/unit/fusion/uwb/hall.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "tools/evaluate/align.h"
 #include "tools/evaluate/associate.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
