@@ -32,8 +32,7 @@ RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, 
     const std::array all{carried(sighting.plus, 1, errors.anchor, track),
                          alone ? carried(common_range_error, 1, errors.common, track)
                                : carried(sighting.minus, -1, errors.anchor, track),
-                         carried(offset_of(sighting.plus), 1, errors.offset, track),
-                         alone ? Carried{} : carried(offset_of(sighting.minus), -1, errors.offset, track)};
+                         alone ? carried(offset_of(sighting.plus), 1, errors.offset, track) : Carried{}};
     RangeExpectation<Track> expectation;
     expectation.jacobian.setZero(track.size());
     const Eigen::Vector3d antenna_site_m = track.antenna_site_m();

@@ -10,7 +10,7 @@ namespace locus {
 /// A sigma of zero: there is no such error.
 struct CarriedErrors {
     filter::WanderModel anchor; ///< of each anchor, soon another
-    filter::WanderModel offset; ///< of each anchor, for good or nearly so
+    filter::WanderModel offset; ///< of each anchor in its ranges, for good or nearly so
     filter::WanderModel common; ///< of all ranges alike; differences are free of it
 };
 

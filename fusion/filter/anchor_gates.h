@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace locus::filter {
@@ -24,10 +25,11 @@ class AnchorGates {
         return voice.gate;
     }
 
-    /// To be asked after each measurement: whether most anchors heard lately are in doubt, on the average of the last
-    /// `patience_s`.
+    /// To be asked after each measurement: whether most anchors heard lately have been in doubt for a while. All of
+    /// them must have been for `patience_s`, some of them for longer.
     bool most_in_doubt(Timestamp time, double patience_s) noexcept {
-        const double fresh = asked_ == never ? 0 : -std::expm1(-to_s(time - asked_) / patience_s);
+        const double since_s = asked_ == never ? 0 : to_s(time - asked_);
+        const double fresh = -std::expm1(-std::numbers::ln2 * since_s / patience_s);
         asked_ = time;
         doubt_ += fresh * (share_in_doubt(time) - doubt_);
         return doubt_ >= 0.5;

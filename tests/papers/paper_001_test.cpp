@@ -23,6 +23,7 @@ constexpr double jerk = 1; ///< of a person who turns, m/s^2 per root of a secon
 RangeEkfSettings by_the_letter() {
     RangeEkfSettings settings;
     settings.anchor_error_sigma_m = 0;
+    settings.anchor_offset_sigma_m = 0;
     settings.common_range_error_sigma_m = 0;
     settings.acceleration_time_s = 1e3;
     settings.acceleration_sigma_mps2 = jerk * std::sqrt(0.5 * settings.acceleration_time_s);

@@ -63,7 +63,7 @@ const Case cases[] = {
     {"EstimatorWithoutOrigin", "site: {anchors: []}\nfusion: {estimator: gnss_ins}",
      "2:21: estimator gnss_ins needs site.origin: where on the Earth the site lies"},
     {"TargetWithoutOrigin", "site: {anchors: []}\ntargets: [{name: car, address: 1, estimator: gnss_ins}]",
-     "2:45: estimator gnss_ins needs site.origin: where on the Earth the site lies"},
+     "2:46: estimator gnss_ins needs site.origin: where on the Earth the site lies"},
     {"ClockOfNoAnchor", "site: {anchors: [{name: a, address: 1, position_site_m: [0, 0, 0]}]}\nclock_sync: {master: 7}",
      "2:22: master is not the address of an anchor of the site"},
     // Missing.

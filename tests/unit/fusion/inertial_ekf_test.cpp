@@ -20,6 +20,7 @@ using test::SimulatedFlight;
 InertialEkfSettings told() {
     InertialEkfSettings settings;
     settings.anchor_error_sigma_m = 0;
+    settings.anchor_offset_sigma_m = 0;
     settings.common_range_error_sigma_m = 0;
     settings.robust_scale = 1e6;
     settings.acceleration_noise_mps2_rthz = 0.05;

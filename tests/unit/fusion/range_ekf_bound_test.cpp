@@ -17,6 +17,7 @@ RangeEkfSettings manoeuvring() {
     RangeEkfSettings settings;
     settings.range_sigma_m = 0.1;
     settings.anchor_error_sigma_m = 0;
+    settings.anchor_offset_sigma_m = 0;
     settings.common_range_error_sigma_m = 0;
     settings.acceleration_sigma_mps2 = 1;
     settings.acceleration_time_s = 1;

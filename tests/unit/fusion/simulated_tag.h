@@ -56,7 +56,8 @@ class SimulatedTag {
 
     Measurement range(std::size_t anchor) {
         const double noise_m = settings_.range_sigma_m * draw();
-        return at_now(Range{site_.anchors[anchor].address, address(9), heard_m(anchor) + common_m_ + noise_m});
+        return at_now(Range{site_.anchors[anchor].address, address(9),
+                            heard_m(anchor) + offset_m_[anchor] + common_m_ + noise_m});
     }
     Measurement difference(std::size_t a, std::size_t b) {
         const double noise_m = settings_.range_difference_sigma_m * draw();
@@ -73,7 +74,7 @@ class SimulatedTag {
     double draw() { return normal_(random_); }
     double heard_m(std::size_t anchor) const {
         const Eigen::Vector3d anchor_site_m = vector(site_.anchors[anchor].position_site_m);
-        return (motion_.row(0).transpose() - anchor_site_m).norm() + anchor_error_m_[anchor] + offset_m_[anchor];
+        return (motion_.row(0).transpose() - anchor_site_m).norm() + anchor_error_m_[anchor];
     }
     Measurement at_now(const Observation& observation) const { return {timestamp_from_s(time_s_), 0, 0, observation}; }
 
