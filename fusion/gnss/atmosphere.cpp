@@ -10,7 +10,7 @@ namespace locus::gnss {
 namespace {
 
 constexpr double semicircles_per_deg = 1.0 / 180;
-constexpr double lowest_m = -1000, highest_m = 20000;
+constexpr double lowest_air_m = -1000, highest_air_m = 20000;
 
 double of_powers(const std::array<double, 4>& c, double x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
 
@@ -71,7 +71,7 @@ double ionosphere_l1_m(const Klobuchar& coefficients, const GpsTime& time, const
 }
 
 double troposphere_m(const Geodetic& at, double elevation_rad) noexcept {
-    if (!(at.height_ellipsoid_m > lowest_m && at.height_ellipsoid_m < highest_m)) return 0;
+    if (!(at.height_ellipsoid_m > lowest_air_m && at.height_ellipsoid_m < highest_air_m)) return 0;
     const double sine = std::max(0.0, std::sin(elevation_rad));
     return zenith_delay_m(at) * 1.001 / std::sqrt(0.002001 + sine * sine);
 }
