@@ -28,7 +28,7 @@ ReadingSettings reading_of(const uwb::AnchorHealthSettings& settings) {
 uwb::EpochPrior prior_of(const Estimate& estimate) {
     uwb::EpochPrior prior;
     for (int axis = 0; axis < 3; ++axis) {
-        const double variance_m2 = estimate.covariance[static_cast<std::size_t>(7 * axis)];
+        const double variance_m2 = estimate.covariance[7 * static_cast<std::size_t>(axis)];
         const bool known = variance_m2 == 0; // the height of an estimator in the plane
         prior.position_sigma_m(axis) = known ? 0 : std::max(drawn_aside_m, drawn_aside_sigma * std::sqrt(variance_m2));
     }

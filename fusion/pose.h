@@ -9,7 +9,16 @@
 namespace locus {
 
 /// What stands between a target and a pose; `nothing` when there is one.
-enum class Missing : std::uint8_t { nothing, measurements, anchors, geometry, agreement, fresh_measurements, site_origin, count_ };
+enum class Missing : std::uint8_t {
+    nothing,
+    measurements,
+    anchors,
+    geometry,
+    agreement,
+    fresh_measurements,
+    site_origin,
+    count_
+};
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Missing::count_)> missing_sentences{
     "nothing",

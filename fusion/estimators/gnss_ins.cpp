@@ -39,6 +39,7 @@ GnssIns::GnssIns(const Site& site, const GnssInsSettings& settings)
       gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)), track_(observations_->motion_model()),
       robust_(gains(settings.robust_scale, std::make_index_sequence<aids>())) {}
 
+// NOLINTBEGIN(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
 Verdict GnssIns::update(const Measurement& measurement) noexcept {
     if (!site_->origin) return {Exclusion::site_without_origin};
     const Verdict verdict =
@@ -46,6 +47,7 @@ Verdict GnssIns::update(const Measurement& measurement) noexcept {
     if (verdict.reason == Exclusion::none) kind_used_[measurement.observation.index()] = measurement.time;
     return verdict;
 }
+// NOLINTEND(bugprone-exception-escape)
 
 void GnssIns::move_to(Timestamp time) noexcept {
     if (started_) track_.predict(to_s(time - time_));

@@ -153,7 +153,7 @@ GnssInsScalar GnssInsObservations::fix_velocity(const GnssInsTrack& track, const
     const Eigen::Vector3d direction = enu_to_ecef(place).col(axis);
     GnssInsScalar scalar{blank_row(track)};
     track.spread_velocity(direction, antenna_body_m_, scalar.jacobian);
-    const double told_mps = double{fix.velocity_enu_mps[static_cast<std::size_t>(axis)]};
+    const auto told_mps = double{fix.velocity_enu_mps[static_cast<std::size_t>(axis)]};
     scalar.innovation = told_mps - direction.dot(track.point_velocity_ecef_mps(antenna_body_m_));
     scalar.variance = own_square(stated_or(fix.sigma_velocity_mps, settings_.fix_speed_sigma_mps));
     return scalar;

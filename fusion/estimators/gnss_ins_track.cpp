@@ -5,6 +5,7 @@
 #include "fusion/geometry/vector.h"
 
 #include <cmath>
+#include <utility>
 
 namespace locus {
 namespace {
@@ -16,7 +17,8 @@ double variance_of(double x) { return x * x; }
 
 } // namespace
 
-GnssInsTrack::GnssInsTrack(const GnssInsMotionModel& model) noexcept : WanderingState(gnss_ins_core), model_(model) {
+GnssInsTrack::GnssInsTrack(GnssInsMotionModel model) noexcept
+    : WanderingState(gnss_ins_core), model_(std::move(model)) {
     for (int i = 0; i < 3; ++i) {
         covariance(inertial::accelerometer_bias_at + i, inertial::accelerometer_bias_at + i) =
             variance_of(model_.acceleration_bias_sigma_mps2);

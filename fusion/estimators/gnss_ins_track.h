@@ -40,7 +40,7 @@ struct GnssInsStart {
 
 class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
   public:
-    explicit GnssInsTrack(const GnssInsMotionModel& model) noexcept;
+    explicit GnssInsTrack(GnssInsMotionModel model) noexcept;
 
     /// Not inertial yet; all wanderers are forgotten, what the sensor taught at rest stays.
     void start(const GnssInsStart& start) noexcept;

@@ -109,7 +109,8 @@ std::optional<GnssInsStart> GnssStart::solve(const GnssInsObservations& observat
             std::isfinite(used[i]->range_rate_mps) ? observations.rate_sigma_mps(*used[i], sine(i)) : 1e3;
         return StartEquation{line(i), told - sight(i).normalized().dot(velocity), sigma};
     });
-    if (!rate || code->agreement < start_agreement || rate->agreement < start_agreement) return std::nullopt;
+    if (!code || !rate) return std::nullopt;
+    if (code->agreement < start_agreement || rate->agreement < start_agreement) return std::nullopt;
     start.position_covariance_m2 = code->covariance.topLeftCorner<3, 3>();
     start.velocity_ecef_mps = rate->step.head<3>();
     start.velocity_covariance_m2ps2 = rate->covariance.topLeftCorner<3, 3>();

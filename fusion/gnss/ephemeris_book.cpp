@@ -78,12 +78,15 @@ bool EphemerisBook::is_in_time(const Ephemeris& ephemeris, const GpsTime& time) 
     return age_s(ephemeris, time) <= (is_glonass ? max_glonass_age_s_ : max_age_s_);
 }
 
+// NOLINTBEGIN(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
 /// Of two that are in time the one whose reference is nearer; whether it is healthy the newest says.
 EphemerisBook::Found EphemerisBook::find(std::uint8_t constellation, std::uint8_t satellite,
                                          const GpsTime& time) const noexcept {
     const std::size_t place = place_of(constellation, satellite);
-    if (place == nowhere || !said_[place].newest) return {nullptr, Exclusion::no_ephemeris};
-    const Ephemeris& newest = *said_[place].newest;
+    if (place == nowhere) return {nullptr, Exclusion::no_ephemeris};
+    const auto& said = said_[place].newest;
+    if (!said) return {nullptr, Exclusion::no_ephemeris};
+    const Ephemeris& newest = *said;
     if (!std::visit([](const auto& e) { return is_healthy(e); }, newest)) return {nullptr, Exclusion::unhealthy};
     const auto& before = said_[place].before;
     const bool is_before = before && age_s(*before, time) < age_s(newest, time);
@@ -91,5 +94,6 @@ EphemerisBook::Found EphemerisBook::find(std::uint8_t constellation, std::uint8_
     if (!is_in_time(nearest, time)) return {nullptr, Exclusion::ephemeris_too_old};
     return {&nearest, Exclusion::none};
 }
+// NOLINTEND(bugprone-exception-escape)
 
 } // namespace locus::gnss

@@ -39,7 +39,8 @@ class Receivers {
     void hear(const GnssFix& fix, Timestamp time) noexcept;
 
     /// A GnssRaw. none: kept, and Output will hear of it.
-    Exclusion hear(const Measurement& raw, const AidBook::Record& record, Timestamp arrival, Output& output) noexcept;
+    Exclusion hear(const Measurement& measurement, const AidBook::Record& record, Timestamp arrival,
+                   Output& output) noexcept;
 
     /// Deals with every epoch whose time has come.
     void run(Timestamp tick, Output& output) noexcept;

@@ -8,10 +8,11 @@ namespace {
 
 float sigma_of(double variance) { return static_cast<float>(std::sqrt(variance)); }
 
-void put_velocity(GnssFix& fix, const SinglePoint& point, const Eigen::Matrix3d& axes) {
-    const Eigen::Vector3d enu_mps = axes.transpose() * *point.velocity_ecef_mps;
+void put_velocity(GnssFix& fix, const Eigen::Vector3d& velocity_ecef_mps, double variance_m2ps2,
+                  const Eigen::Matrix3d& axes) {
+    const Eigen::Vector3d enu_mps = axes.transpose() * velocity_ecef_mps;
     for (int i = 0; i < 3; ++i) fix.velocity_enu_mps[static_cast<std::size_t>(i)] = static_cast<float>(enu_mps[i]);
-    fix.sigma_velocity_mps = sigma_of(point.velocity_covariance_m2ps2.trace() / 3);
+    fix.sigma_velocity_mps = sigma_of(variance_m2ps2);
 }
 
 } // namespace
@@ -48,7 +49,8 @@ GnssFix own_fix(Address tag, const SinglePoint& point) noexcept {
     fix.height_ellipsoid_m = at.height_ellipsoid_m;
     fix.sigma_horizontal_m = sigma_of((enu_m2(0, 0) + enu_m2(1, 1)) / 2);
     fix.sigma_vertical_m = sigma_of(enu_m2(2, 2));
-    if (point.velocity_ecef_mps) put_velocity(fix, point, axes);
+    if (point.velocity_ecef_mps)
+        put_velocity(fix, *point.velocity_ecef_mps, point.velocity_covariance_m2ps2.trace() / 3, axes);
     fix.fix_type = gnss_fix_type::full;
     fix.satellites = static_cast<std::uint8_t>(std::min(point.satellites, 255));
     return fix;

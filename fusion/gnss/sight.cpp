@@ -60,6 +60,7 @@ bool is_possible_pseudorange(double pseudorange_m) noexcept {
     return pseudorange_m > shortest_m && pseudorange_m < longest_m;
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
 std::optional<Sight> sight_of(const GnssRaw& raw, const Ephemeris& ephemeris) noexcept {
     const auto state = std::visit([&](const auto& e) { return when_it_sent(e, raw); }, ephemeris);
     if (!is_possible(state)) return std::nullopt;

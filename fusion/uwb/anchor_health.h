@@ -88,7 +88,7 @@ class AnchorHealth {
     void remember(Path& path, const AnchorError& error, const Epoch& epoch) const noexcept;
     void judge_paths(const Epoch& epoch) noexcept;
     void judge_anchors() noexcept;
-    void name(Record& record) noexcept;
+    void name(Record& named) noexcept;
     void locate(Record& record) const noexcept;
     void acquit_if_well(Record& record) const noexcept;
     void describe_place(Record& record, std::size_t anchor) const noexcept;
