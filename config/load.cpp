@@ -12,7 +12,7 @@ namespace locus {
 namespace config {
 namespace {
 
-constexpr std::array<FlatSection, 7> flat{{
+constexpr std::array<FlatSection, 8> flat{{
     {"fusion", "The engine: how often, how late, how many.", fusion_options,
      [](Settings& settings) -> void* { return &settings.engine.fusion; }},
     {"clock_sync", "Clocks of anchors that tell raw times of arrival (docs/clock-sync.md).", clock_sync_options,
@@ -23,14 +23,16 @@ constexpr std::array<FlatSection, 7> flat{{
      [](Settings& settings) -> void* { return &settings.engine.gnss; }},
     {"publish", "The socket that clients read.", publish_options,
      [](Settings& settings) -> void* { return &settings.publish; }},
+    {"nmea", "The pose of one target as NMEA 0183, for GNSS software (docs/nmea.md).", nmea_output_options,
+     [](Settings& settings) -> void* { return &settings.nmea; }},
     {"log", "What is written to the journal.", log_options, [](Settings& settings) -> void* { return &settings.log; }},
     {"realtime", "How the fusion thread is scheduled.", realtime_options,
      [](Settings& settings) -> void* { return &settings.realtime; }},
 }};
 
-constexpr std::array<std::string_view, 11> section_names{"site",       "targets",       "inputs",  "fusion",
-                                                         "clock_sync", "anchor_health", "gnss",    "estimators",
-                                                         "publish",    "log",           "realtime"};
+constexpr std::array<std::string_view, 12> section_names{"site",       "targets",       "inputs", "fusion",
+                                                         "clock_sync", "anchor_health", "gnss",   "estimators",
+                                                         "publish",    "nmea",          "log",    "realtime"};
 
 /// An absent section reads like an empty one.
 const YamlNode& section(const YamlNode& root, std::string_view name) {
@@ -47,6 +49,17 @@ void check_origin(const YamlNode* node, const Site& site, Problems& problems) {
                      fmt::format("estimator {} needs site.origin: where on the Earth the site lies", row->name));
 }
 
+void check_nmea(const YamlNode& node, const Settings& settings, Problems& problems) {
+    const YamlNode* target = node.find("target");
+    if (target == nullptr || settings.nmea.target.empty()) return;
+    if (!settings.engine.site.origin)
+        problems.add(target->mark, "nmea needs site.origin: where on the Earth the site lies; GNSS software knows no "
+                                   "metres from a corner");
+    if (std::ranges::find(settings.engine.targets, settings.nmea.target, &TargetSettings::name) ==
+        settings.engine.targets.end())
+        problems.add(target->mark, fmt::format("nmea.target {} is not the name of one of the targets", target->text));
+}
+
 void check_limits_between(const YamlNode& root, const Settings& settings, Problems& problems) {
     constexpr std::size_t longest_socket_path = 107; // sockaddr_un::sun_path less its terminating zero
     const auto& fusion = settings.engine.fusion;
@@ -54,6 +67,7 @@ void check_limits_between(const YamlNode& root, const Settings& settings, Proble
     check_origin(section(root, "fusion").find("estimator"), settings.engine.site, problems);
     for (const YamlNode& target : section(root, "targets").children)
         check_origin(target.find("estimator"), settings.engine.site, problems);
+    check_nmea(section(root, "nmea"), settings, problems);
     const Address master = settings.engine.clock_sync.master;
     if (master != no_address && settings.engine.site.find_anchor(master) == nullptr)
         problems.add(section(root, "clock_sync").find("master")->mark,

@@ -1,6 +1,7 @@
 // Everything a configuration file says, checked. config/load.h makes it.
 #pragma once
 
+#include "config/nmea_settings.h"
 #include "drivers/decoder.h"
 #include "drivers/transport/transport.h"
 #include "fusion/engine.h"
@@ -103,6 +104,7 @@ struct Settings {
     EngineSettings engine;
     std::vector<InputSettings> inputs;
     PublishSettings publish;
+    NmeaOutputSettings nmea;
     LogSettings log;
     RealtimeSettings realtime;
 };

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <stdexcept>
@@ -21,6 +22,16 @@ std::string engine_text(const Settings& settings) {
     Settings only;
     only.engine = settings.engine;
     return print_settings(only);
+}
+
+/// Empty when no target is to be told; that it is known and the site anchored was checked when the settings were read.
+std::optional<NmeaPlan> nmea_plan(const Settings& settings) {
+    const auto& targets = settings.engine.targets;
+    const auto target = std::ranges::find(targets, settings.nmea.target, &TargetSettings::name);
+    if (settings.nmea.target.empty() || target == targets.end()) return std::nullopt;
+    const std::optional<Wgs84Anchor>& origin = settings.engine.site.origin;
+    if (!origin.has_value()) return std::nullopt;
+    return NmeaPlan{settings.nmea, target->address, origin.value()};
 }
 
 } // namespace
@@ -81,6 +92,7 @@ std::unique_ptr<const Roster> Service::roster() const {
     roster.rate_hz = settings_.engine.fusion.rate_hz;
     roster.anchors = settings_.engine.site.anchors.size();
     roster.publish = settings_.publish;
+    roster.nmea = nmea_plan(settings_);
     roster.names = Names{settings_.engine};
     roster.inputs = inputs_.entries();
     roster.memory_locked = memory_locked_;

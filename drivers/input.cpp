@@ -1,9 +1,7 @@
 #include "drivers/input.h"
 
 #include "drivers/clock.h"
-
-#include <condition_variable>
-#include <mutex>
+#include "drivers/stoppable_sleep.h"
 
 namespace locus {
 namespace {
@@ -12,12 +10,6 @@ constexpr Duration read_timeout = std::chrono::milliseconds{100};
 
 void count(InputStatus::Counter& counter, std::uint64_t more = 1) {
     counter.fetch_add(more, std::memory_order_relaxed);
-}
-
-void sleep_unless_stopped(const std::stop_token& stop, Duration duration) {
-    std::mutex mutex;
-    std::unique_lock lock{mutex};
-    std::condition_variable_any{}.wait_for(lock, stop, duration, [] { return false; });
 }
 
 } // namespace

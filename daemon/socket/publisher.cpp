@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 namespace locus {
 namespace {
@@ -29,6 +30,7 @@ Publisher::Publisher(Listener listener, FusionOutput& output, const Wake& ticked
                      std::unique_ptr<const Roster> roster)
     : listener_{std::move(listener)}, output_{output}, ticked_{ticked}, post_{post}, roster_{std::move(roster)},
       epoll_{::epoll_create1(EPOLL_CLOEXEC)}, next_id_{first_client_id} {
+    if (const std::optional<NmeaPlan>& plan = roster_->nmea) nmea_.emplace(*plan);
     add_to_epoll(listener_.fd(), listener_id);
     add_to_epoll(ticked_.fd(), tick_id);
     add_to_epoll(post_.publisher.fd(), post_id);
@@ -50,6 +52,7 @@ void Publisher::run(const std::stop_token& stop) {
             serve(events[static_cast<std::size_t>(i)].data.u64, events[static_cast<std::size_t>(i)].events);
         take_output();
         flush_all();
+        if (nmea_) nmea_->run(monotonic_now());
         resume_accepting();
         input_rates_.watch(roster_->inputs, monotonic_now());
     }
@@ -148,10 +151,24 @@ std::string Publisher::request_reload(Id id, const Client& client) {
 
 void Publisher::open_post() {
     post_.publisher.hush();
-    while (auto roster = post_.rosters.take()) roster_ = std::move(roster);
+    while (auto roster = post_.rosters.take()) {
+        roster_ = std::move(roster);
+        follow_roster();
+    }
     while (const auto answer = post_.answers.take())
         if (const auto client = clients_.find(answer->client); client != clients_.end())
             client->second.queue.push_answer(reload_line(answer->ok, answer->problems));
+}
+
+/// A terminal that readers have open stays as long as its name does.
+void Publisher::follow_roster() try {
+    const std::optional<NmeaPlan>& plan = roster_->nmea;
+    if (!plan) return nmea_.reset();
+    if (nmea_ && nmea_->follow(*plan)) return;
+    nmea_.reset();
+    nmea_.emplace(*plan);
+} catch (const std::runtime_error& error) {
+    spdlog::error("there is no NMEA output: {}", error.what());
 }
 
 void Publisher::take_output() {
@@ -179,6 +196,7 @@ void Publisher::take_smoothed(const Pose& pose) {
 
 void Publisher::take_pose(const PoseItem& item) {
     if (item.smoothed) return take_smoothed(item.pose);
+    if (nmea_) nmea_->take(item.pose);
     const TargetView& view = picture_.take(item);
     if (!is_publishable(view.pose)) return;
     const std::string name = roster_->names.target(view.pose.target);

@@ -22,6 +22,7 @@ namespace locus {
 class Publisher {
   public:
     /// `ticked` is raised by the fusion thread when `output` holds something new. All but the listener outlive this.
+    /// Throws std::runtime_error with a sentence when the NMEA output cannot be made.
     Publisher(Listener listener, FusionOutput& output, const Wake& ticked, Post& post,
               std::unique_ptr<const Roster> roster);
 
@@ -50,6 +51,7 @@ class Publisher {
     void flush_all();
 
     void open_post();
+    void follow_roster();
     void take_output();
     void take_pose(const PoseItem& item);
     void take_smoothed(const Pose& pose);
@@ -64,6 +66,7 @@ class Publisher {
     Clients clients_;
     Id next_id_; // NOLINT(*-default-member-init): the first number is known to the .cpp alone
     std::optional<Timestamp> accept_again_; ///< set: no new clients until then
+    std::optional<NmeaOutput> nmea_;
     Picture picture_;
     ReasonWatch reasons_;
     InputRates input_rates_;

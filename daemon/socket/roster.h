@@ -2,6 +2,7 @@
 #pragma once
 
 #include "config/settings.h"
+#include "daemon/nmea/output.h"
 #include "daemon/output.h"
 #include "daemon/socket/names.h"
 #include "drivers/input_status.h"
@@ -26,6 +27,7 @@ struct Roster {
     double rate_hz = 0;
     std::size_t anchors = 0;
     PublishSettings publish;
+    std::optional<NmeaPlan> nmea;
     Names names;
     std::vector<InputEntry> inputs;
     bool memory_locked = false;

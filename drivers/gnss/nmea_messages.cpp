@@ -1,5 +1,6 @@
 #include "drivers/gnss/nmea_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -31,9 +32,10 @@ class Body {
     Body& whole(unsigned value) { return print("%u", value); }
     Body& time(std::int64_t us) {
         if (us == no_time) return text("");
-        const auto seconds = us / 1'000'000;
-        return print("%02d%02d%02d.%06d", static_cast<int>(seconds / 3600), static_cast<int>(seconds / 60 % 60),
-                     static_cast<int>(seconds % 60), static_cast<int>(us % 1'000'000));
+        constexpr std::int64_t last_minute = 24 * 60 - 1;
+        const auto seconds = us / 1'000'000, minutes = std::min(seconds / 60, last_minute); // 23:59:60
+        return print("%02d%02d%02d.%06d", static_cast<int>(minutes / 60), static_cast<int>(minutes % 60),
+                     static_cast<int>(seconds - 60 * minutes), static_cast<int>(us % 1'000'000));
     }
     Body& angle(double angle_deg, int width, std::string_view positive, std::string_view negative) {
         if (std::isnan(angle_deg)) return text("").text("");
@@ -74,6 +76,7 @@ std::optional<Rmc> parse_rmc(const Sentence& sentence) {
     rmc.speed_knots = fields.number(7);
     rmc.course_deg = fields.number(8);
     rmc.date_ddmmyy = fields.whole(9, 311299);
+    if (fields.text(12).size() == 1) rmc.mode = fields.text(12)[0];
     return if_good(fields, rmc);
 }
 
@@ -106,6 +109,12 @@ std::optional<Zda> parse_zda(const Sentence& sentence) {
     return if_good(fields, zda);
 }
 
+std::optional<Hdt> parse_hdt(const Sentence& sentence) {
+    Fields fields{sentence};
+    const Hdt hdt{fields.number(1)};
+    return if_good(fields, hdt);
+}
+
 std::string encode(const Gga& gga) {
     Body body{"GNGGA"};
     body.time(gga.time_us).angle(gga.latitude_deg, 2, "N", "S").angle(gga.longitude_deg, 3, "E", "W");
@@ -119,7 +128,8 @@ std::string encode(const Rmc& rmc) {
     body.time(rmc.time_us).text(rmc.valid ? "A" : "V");
     body.angle(rmc.latitude_deg, 2, "N", "S").angle(rmc.longitude_deg, 3, "E", "W");
     body.number(rmc.speed_knots).number(rmc.course_deg).print("%06u", rmc.date_ddmmyy);
-    return body.text("").text("").text(rmc.valid ? "A" : "N").line();
+    const char mode = rmc.mode != 0 ? rmc.mode : rmc.valid ? 'A' : 'N';
+    return body.text("").text("").text({&mode, 1}).line();
 }
 
 std::string encode(const Vtg& vtg) {
@@ -141,5 +151,7 @@ std::string encode(const Zda& zda) {
     body.time(zda.time_us).print("%02u", zda.day).print("%02u", zda.month).print("%04u", zda.year);
     return body.text("00").text("00").line();
 }
+
+std::string encode(const Hdt& hdt) { return Body{"GNHDT"}.number(hdt.heading_deg).text("T").line(); }
 
 } // namespace locus::gnss::nmea

@@ -26,6 +26,7 @@ struct Rmc {
     double speed_knots = not_told;
     double course_deg = not_told; ///< true, clockwise from north
     unsigned date_ddmmyy = 0;
+    char mode = 0; ///< A: measured, E: estimated, N: not valid; 0: as `valid` says
 };
 
 /// Velocity. Without a time: it belongs to the sentence before it.
@@ -43,6 +44,11 @@ struct Gst {
     double sigma_altitude_m = not_told;
 };
 
+/// Where the bow points.
+struct Hdt {
+    double heading_deg = not_told; ///< true, clockwise from north
+};
+
 /// Time and date.
 struct Zda {
     std::int64_t time_us = no_time;
@@ -55,12 +61,15 @@ std::optional<Rmc> parse_rmc(const Sentence& sentence);
 std::optional<Vtg> parse_vtg(const Sentence& sentence);
 std::optional<Gst> parse_gst(const Sentence& sentence);
 std::optional<Zda> parse_zda(const Sentence& sentence);
+std::optional<Hdt> parse_hdt(const Sentence& sentence);
 
-/// Whole lines with checksum and "\r\n", angles to 1e-7 minutes, other numbers to a thousandth.
+/// Whole lines with checksum and "\r\n", angles to 1e-7 minutes, other numbers to a thousandth. A
+/// time of day beyond the last second is in a leap second.
 std::string encode(const Gga& gga);
 std::string encode(const Rmc& rmc);
 std::string encode(const Vtg& vtg);
 std::string encode(const Gst& gst);
 std::string encode(const Zda& zda);
+std::string encode(const Hdt& hdt);
 
 } // namespace locus::gnss::nmea

@@ -13,19 +13,13 @@ namespace {
 constexpr double vehicle_kind_memory_s = 1;
 /// Fixes are left aside for so long after a satellite's range was heard, where the coupling is automatic.
 constexpr double satellites_memory_s = 2;
-/// Receivers set their clocks by milliseconds (300 km); no pseudorange is wrong by as much as a kilometre otherwise.
-constexpr double least_clock_jump_m = 1000, jumps_agree_m = 100;
 /// Before any fix the clock is unknown: satellites then set it.
 constexpr double unknown_clock_m = 1000, unknown_drift_mps = 1000;
 /// Observations over which the share of refused ones is taken, and from which share on the filter may be lost. Fixes
 /// under a bridge are wrong for a minute and dead reckoning is not, so that it takes 350 of them in a row.
-constexpr double satellite_memory = 500, fix_memory = 150, lost_share = 0.9;
+constexpr double fix_memory = 150;
 
 bool tells_velocity(const Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
-std::size_t gate_of(const SatelliteRange& range) {
-    return (range.constellation % std::size_t{8}) * 64 + range.satellite % std::size_t{64};
-}
 
 template <std::size_t... i>
 std::array<filter::RobustGain, sizeof...(i)> gains(double scale, std::index_sequence<i...> /*count*/) {
@@ -92,60 +86,6 @@ void GnssIns::note(const Verdict& verdict, Timestamp time, double memory) noexce
     const bool refused = verdict.reason != Exclusion::none;
     refused_share_ += ((refused ? 1.0 : 0.0) - refused_share_) / memory;
     if (!refused) used_time_ = time;
-}
-
-/// Most satellites refused may mean a street canyon or a filter in the wrong place: it moves only when they agree on
-/// another one.
-void GnssIns::start_again_if_lost(Timestamp time) noexcept {
-    if (refused_share_ < lost_share) return;
-    if (const auto found = start_.solve(*observations_, time)) start(*found, time);
-}
-
-// ---- satellites
-
-Exclusion GnssIns::refusal(const SatelliteRange& range) const noexcept {
-    if (settings().coupling == "loose") return Exclusion::disabled;
-    if (double{range.carrier_to_noise_dbhz} < settings().least_carrier_to_noise_dbhz) return Exclusion::too_weak;
-    if (!started_) return Exclusion::none;
-    const double least = std::sin(settings().least_elevation_deg * std::numbers::pi / 180);
-    return observations_->elevation_sine(track_, range) < least ? Exclusion::too_low : Exclusion::none;
-}
-
-Verdict GnssIns::take(const SatelliteRange& range, Timestamp time) noexcept {
-    const Exclusion reason = refusal(range);
-    if (reason != Exclusion::none) return {reason};
-    satellites_heard_ = time;
-    start_.keep(range, time);
-    if (!started_) {
-        const auto found = start_.solve(*observations_, time);
-        return found ? start(*found, time) : Verdict{Exclusion::waiting_for_start};
-    }
-    move_to(time);
-    const GnssInsScalar code = observations_->pseudorange(track_, range);
-    if (clock_jumped(range, code)) return {Exclusion::clock_jumped};
-    const Verdict verdict = weigh(Aid::code, code, code_gates_[gate_of(range)]);
-    const Verdict rate = take_rate(range, rate_gates_[gate_of(range)]);
-    note(verdict.reason == Exclusion::none ? verdict : rate, time, satellite_memory);
-    start_again_if_lost(time);
-    return verdict;
-}
-
-Verdict GnssIns::take_rate(const SatelliteRange& range, filter::Gate& gate) noexcept {
-    if (!std::isfinite(range.range_rate_mps)) return {Exclusion::not_finite};
-    return weigh(Aid::rate, observations_->range_rate(track_, range), gate);
-}
-
-/// One satellite that is off by kilometres is wrong; two in a row that are off by the same are right.
-bool GnssIns::clock_jumped(const SatelliteRange& range, const GnssInsScalar& code) noexcept {
-    if (std::abs(code.innovation) < least_clock_jump_m) return false;
-    const bool confirmed =
-        range.satellite != clock_jump_by_ && std::abs(code.innovation - clock_jump_m_) < jumps_agree_m;
-    clock_jump_m_ = code.innovation;
-    clock_jump_by_ = range.satellite;
-    if (!confirmed) return true;
-    track_.shift_clock(code.innovation, jumps_agree_m);
-    clock_jump_m_ = 0;
-    return true;
 }
 
 // ---- fixes

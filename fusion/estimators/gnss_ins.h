@@ -43,6 +43,8 @@ class GnssIns final : public Estimator {
         range,
         count_
     };
+    /// Share of refused observations from which on the filter may be lost.
+    static constexpr double lost_share = 0.9;
     static constexpr std::size_t aids = static_cast<std::size_t>(Aid::count_);
 
     Verdict take(const ImuSample& sample, Timestamp time) noexcept;

@@ -11,6 +11,9 @@
 
 namespace locus {
 
+/// Clocks of two constellations are known to each other within this: 300 ns and the receiver's own delays.
+inline constexpr double constellation_clock_sigma_m = 300;
+
 /// One number observed of a track.
 struct GnssInsScalar {
     GnssInsTrack::Vector jacobian;

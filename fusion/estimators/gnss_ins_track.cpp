@@ -10,8 +10,8 @@
 namespace locus {
 namespace {
 
-/// A course known better than this makes a heading.
-constexpr double course_sigma_rad = 0.1;
+/// A course known better than this makes a heading: the filter aligns from 20 degrees off.
+constexpr double worst_course_sigma_rad = 0.2;
 
 double variance_of(double x) { return x * x; }
 
@@ -84,16 +84,32 @@ void GnssInsTrack::predict(double dt_s) noexcept {
     move_core(transition, inertial::error_noise(noise, dt_s), dt_s);
 }
 
+namespace {
+
+constexpr int moving = inertial::accelerometer_bias_at; ///< position, velocity and attitude: what moves by itself
+
+/// F x for the core's rows of x: biases and the drift of the clock stay, which is half of all the work.
+// NOLINTBEGIN(cppcoreguidelines-missing-std-forward): columns are temporaries that stand for what they refer to
+template <class Column>
+void carry(const Eigen::Matrix<double, moving, inertial::navigation_size>& f, double dt_s, Column&& column) {
+    const Eigen::Matrix<double, moving, 1> moved = f.lazyProduct(column.template head<inertial::navigation_size>());
+    column.template head<moving>() = moved;
+    column(clock_offset_at) += dt_s * column(clock_drift_at);
+}
+// NOLINTEND(cppcoreguidelines-missing-std-forward)
+
+} // namespace
+
 void GnssInsTrack::move_core(const inertial::ErrorTransition& transition, const inertial::ErrorTransition& noise,
                              double dt_s) noexcept {
-    constexpr int n = inertial::navigation_size;
-    Core f = Core::Identity();
-    f.topLeftCorner<n, n>() = transition;
-    f(clock_offset_at, clock_drift_at) = dt_s;
+    const Eigen::Matrix<double, moving, inertial::navigation_size> f = transition.topRows<moving>();
     state(clock_offset_at) += dt_s * state(clock_drift_at);
-    const Core half = f * covariance.topLeftCorner<gnss_ins_core, gnss_ins_core>();
-    covariance.topLeftCorner<gnss_ins_core, gnss_ins_core>().noalias() = half * f.transpose();
-    covariance.topLeftCorner<n, n>() += noise;
+    Core core = covariance.topLeftCorner<gnss_ins_core, gnss_ins_core>();
+    for (int k = 0; k < gnss_ins_core; ++k) carry(f, dt_s, core.col(k));
+    core.transposeInPlace();
+    for (int k = 0; k < gnss_ins_core; ++k) carry(f, dt_s, core.col(k));
+    covariance.topLeftCorner<gnss_ins_core, gnss_ins_core>() = core;
+    covariance.topLeftCorner<inertial::navigation_size, inertial::navigation_size>() += noise;
     // Groves eq. 9.151: the drift walks, and its integral with it.
     const double drift = variance_of(model_.clock_drift_mps_rts) * dt_s;
     covariance(clock_offset_at, clock_offset_at) +=
@@ -102,8 +118,9 @@ void GnssInsTrack::move_core(const inertial::ErrorTransition& transition, const 
     covariance(clock_drift_at, clock_drift_at) += drift;
     wander(
         [&](auto column, double keep) {
-            const Eigen::Matrix<double, gnss_ins_core, 1> now = column;
-            column = keep * (f * now);
+            Eigen::Matrix<double, gnss_ins_core, 1> now = column;
+            carry(f, dt_s, now);
+            column = keep * now;
         },
         dt_s);
 }
@@ -136,12 +153,21 @@ void GnssInsTrack::sense(const ImuSample& sample, Timestamp time, bool started) 
     if (started && levelling_.is_level()) begin_inertial_if_fast();
 }
 
-void GnssInsTrack::begin_inertial_if_fast() noexcept {
-    const double speed_mps = velocity_ecef_mps().norm();
+/// A course on the level and how unsure it is: by the velocity across it.
+GnssInsTrack::Course GnssInsTrack::course() const noexcept {
+    const Eigen::Vector3d up = position_m().normalized();
+    const Eigen::Vector3d level = velocity_ecef_mps() - up.dot(velocity_ecef_mps()) * up;
+    const Eigen::Vector3d across = up.cross(level.normalized());
     double variance = 0;
-    for (int axis = 0; axis < 3; ++axis) variance += covariance(place(axis, 1), place(axis, 1));
-    if (speed_mps < model_.align_speed_mps || std::sqrt(variance) > course_sigma_rad * speed_mps) return;
-    begin_inertial(velocity_ecef_mps(), std::hypot(model_.align_heading_sigma_rad, std::sqrt(variance) / speed_mps));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) variance += across(i) * covariance(place(i, 1), place(j, 1)) * across(j);
+    return {level, std::sqrt(variance) / level.norm()};
+}
+
+void GnssInsTrack::begin_inertial_if_fast() noexcept {
+    const Course now = course();
+    if (now.velocity_ecef_mps.norm() < model_.align_speed_mps || now.sigma_rad > worst_course_sigma_rad) return;
+    begin_inertial(now.velocity_ecef_mps, std::hypot(model_.align_heading_sigma_rad, now.sigma_rad));
 }
 
 void GnssInsTrack::begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept {
@@ -182,41 +208,7 @@ void GnssInsTrack::shift_clock(double jump_m, double sigma_m) noexcept {
     covariance(clock_drift_at, clock_drift_at) = drift_variance;
 }
 
-// ---- what observations need
-
-Eigen::Vector3d GnssInsTrack::point_ecef_m(const Eigen::Vector3d& lever_body_m) const noexcept {
-    return inertial_ ? Eigen::Vector3d(position_m() + body_to_ecef_ * lever_body_m) : position_m();
-}
-
-Eigen::Vector3d GnssInsTrack::lever_velocity_ecef_mps(const Eigen::Vector3d& lever_body_m) const noexcept {
-    return body_to_ecef_ * angular_rate_radps().cross(lever_body_m);
-}
-
-// The sensor turns against the stars, the lever's velocity is against the Earth: 0.07 mm/s for a lever of a metre.
-Eigen::Vector3d GnssInsTrack::point_velocity_ecef_mps(const Eigen::Vector3d& lever_body_m) const noexcept {
-    return velocity_ecef_mps() + lever_velocity_ecef_mps(lever_body_m);
-}
-
-void GnssInsTrack::spread_position(const Eigen::Vector3d& gradient, const Eigen::Vector3d& lever_body_m,
-                                   Vector& jacobian) const noexcept {
-    const Eigen::Vector3d by_attitude = (body_to_ecef_ * lever_body_m).cross(gradient);
-    for (int axis = 0; axis < 3; ++axis) {
-        jacobian(place(axis, 0)) += gradient(axis);
-        if (inertial_) jacobian(place(axis, 2)) += by_attitude(axis);
-    }
-}
-
-void GnssInsTrack::spread_velocity(const Eigen::Vector3d& gradient, const Eigen::Vector3d& lever_body_m,
-                                   Vector& jacobian) const noexcept {
-    const Eigen::Vector3d by_attitude = lever_velocity_ecef_mps(lever_body_m).cross(gradient);
-    const Eigen::Vector3d by_bias = (body_to_ecef_.conjugate() * gradient).cross(lever_body_m);
-    for (int axis = 0; axis < 3; ++axis) {
-        jacobian(place(axis, 1)) += gradient(axis);
-        if (!inertial_) continue;
-        jacobian(place(axis, 2)) += by_attitude(axis);
-        jacobian(inertial::gyroscope_bias_at + axis) += by_bias(axis);
-    }
-}
+// ---- corrections
 
 void GnssInsTrack::correct(const filter::Prediction<Vector>& prediction, double innovation, double variance,
                            const filter::Share& share) noexcept {

@@ -82,6 +82,11 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
     void set_motion(const inertial::EcefMotion& motion) noexcept;
     void move_core(const inertial::ErrorTransition& transition, const inertial::ErrorTransition& noise,
                    double dt_s) noexcept;
+    struct Course {
+        Eigen::Vector3d velocity_ecef_mps;
+        double sigma_rad;
+    };
+    Course course() const noexcept;
     void begin_inertial_if_fast() noexcept;
     void fall_back() noexcept;
     Eigen::Vector3d lever_velocity_ecef_mps(const Eigen::Vector3d& lever_body_m) const noexcept;

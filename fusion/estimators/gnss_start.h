@@ -1,5 +1,5 @@
-// A first position, velocity and clock from the satellites of one moment: least squares on the pseudoranges of those
-// that share a clock, then on their rates.
+// A first position, velocity and clock from the satellites of one moment: least squares on the pseudoranges, with a
+// clock for each constellation, then on their rates.
 #pragma once
 
 #include "fusion/estimators/gnss_ins_observations.h"
@@ -14,11 +14,12 @@ class GnssStart {
     /// Replaces what was heard of the same satellite.
     void keep(const SatelliteRange& range, Timestamp time) noexcept;
 
-    /// None with fewer than four satellites, or when they do not agree.
+    /// None with fewer than four satellites (and one more for each constellation after the first), or when they do not
+    /// agree.
     std::optional<GnssInsStart> solve(const GnssInsObservations& observations, Timestamp time) const noexcept;
 
   private:
-    static constexpr std::size_t room = 24;
+    static constexpr std::size_t room = 40;
     struct Heard {
         SatelliteRange range;
         Timestamp time = Timestamp::min();

@@ -18,25 +18,6 @@ constexpr double worse = 1.25, much_worse = 4;
 constexpr double first_probation_s = 1, longest_probation_s = 600;
 constexpr double clip_sigma = 3;
 
-/// Mean and covariance of the mixture of two estimates of one time.
-Estimate mixed(const Estimate& a, const Estimate& b, double share_of_b) {
-    Estimate mix = share_of_b < 0.5 ? a : b;
-    std::array<double, 6> apart{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        apart[i] = b.position_site_m[i] - a.position_site_m[i];
-        apart[i + 3] = b.velocity_site_mps[i] - a.velocity_site_mps[i];
-        mix.position_site_m[i] = a.position_site_m[i] + share_of_b * apart[i];
-        mix.velocity_site_mps[i] = a.velocity_site_mps[i] + share_of_b * apart[i + 3];
-    }
-    for (std::size_t i = 0; i < 6; ++i)
-        for (std::size_t j = 0; j < 6; ++j)
-            mix.covariance[6 * i + j] = (1 - share_of_b) * a.covariance[6 * i + j] +
-                                        share_of_b * b.covariance[6 * i + j] +
-                                        share_of_b * (1 - share_of_b) * apart[i] * apart[j];
-    mix.orientation_xyzw = b.orientation_xyzw;
-    return mix;
-}
-
 } // namespace
 
 InertialEkf::InertialEkf(const Site& site, const InertialEkfSettings& settings)
@@ -46,7 +27,7 @@ InertialEkf::InertialEkf(const Site& site, const InertialEkfSettings& settings)
 
 Verdict InertialEkf::update(const Measurement& measurement) noexcept {
     if (std::holds_alternative<ImuSample>(measurement.observation)) return sense(measurement);
-    const Verdict plain = plain_.update(measurement);
+    const Verdict plain = plain_.update(measurement, !sensed_);
     if (!sensed_) return plain;
     const Verdict aided = aided_.update(measurement);
     compare(plain, aided, to_s(measurement.time - compared_));
@@ -58,8 +39,8 @@ Verdict InertialEkf::update(const Measurement& measurement) noexcept {
 Verdict InertialEkf::sense(const Measurement& measurement) noexcept {
     if (!settings_.use_imu || settings_.planar) return {Exclusion::disabled}; // nothing would hold the height
     if (!sensed_) {
-        aided_.restart_from(plain_);
-        resets_ = resets_seen_ = plain_.reset_count();
+        aided_.restart_from(plain_.brisk());
+        resets_ = resets_seen_ = plain_.brisk().reset_count();
     }
     sensed_ = true;
     const Verdict verdict = aided_.update(measurement);
@@ -80,7 +61,7 @@ void InertialEkf::compare(const Verdict& plain, const Verdict& aided, double dt_
 }
 
 bool InertialEkf::aided_is_worse() const noexcept {
-    return plain_.has_position() &&
+    return plain_.brisk().has_position() &&
            (!aided_.has_position() ||
             misfit_aided_ > (aided_.track().is_inertial() ? worse : much_worse) * misfit_plain_);
 }
@@ -97,21 +78,21 @@ void InertialEkf::turn_to_the_better(Timestamp time) noexcept {
 
 /// Clients see one counter that never falls, whichever filter is published.
 void InertialEkf::count_resets() noexcept {
-    const std::uint32_t now = (aided_share_ > 0.5 ? aided_ : plain_).reset_count();
+    const std::uint32_t now = (aided_share_ > 0.5 ? aided_ : plain_.brisk()).reset_count();
     if (now > resets_seen_) resets_ += now - resets_seen_;
     resets_seen_ = now;
 }
 
 void InertialEkf::start_aided_again() noexcept {
     if (aided_.track().is_inertial()) probation_s_ = std::min(2 * probation_s_, longest_probation_s);
-    aided_.restart_from(plain_);
+    aided_.restart_from(plain_.brisk());
     misfit_aided_ = misfit_plain_;
 }
 
 Estimate InertialEkf::predict(Timestamp time) const noexcept {
     const bool aided = aided_share_ > 0 && aided_.has_position();
-    const bool plain = !aided || (aided_share_ < 1 && plain_.has_position());
-    Estimate estimate = (plain ? plain_ : static_cast<const Estimator&>(aided_)).predict(time);
+    const bool plain = !aided || (aided_share_ < 1 && plain_.brisk().has_position());
+    Estimate estimate = plain ? plain_.predict(time) : aided_.predict(time);
     if (plain && aided) estimate = mixed(estimate, aided_.predict(time), aided_share_);
     if (sensed_) estimate.reset_count = resets_;
     if (estimate.missing == Missing::nothing && is_out_of_date(time)) estimate.missing = Missing::fresh_measurements;
@@ -122,7 +103,7 @@ Estimate InertialEkf::predict(Timestamp time) const noexcept {
 bool InertialEkf::is_out_of_date(Timestamp time) const noexcept {
     const double believed_s = aided_share_ > 0.5 ? settings_.dead_reckoning_s : settings_.forget_after_s;
     const double unheard_s =
-        std::min(plain_.unheard_s(time), aided_.has_position() ? aided_.unheard_s(time) : no_limit);
+        std::min(plain_.brisk().unheard_s(time), aided_.has_position() ? aided_.unheard_s(time) : no_limit);
     return unheard_s > believed_s;
 }
 

@@ -1,10 +1,11 @@
 // The default estimator: two navigation filters on the same measurements, one that uses the inertial sensor and one
-// that knows nothing of it. A sensor may be mounted loosely, clip, or be shaken until its mean is metres per second
-// squared off; nobody can tell from its samples. So the plain filter always runs beside the aided one, which has to
-// earn its place: it is published while its heading is found and its predictions are no worse than the plain one's.
+// that knows nothing of it (two of that kind while there is no sensor, nav_pair.h). A sensor may be mounted loosely,
+// clip, or be shaken until its mean is metres per second squared off; nobody can tell from its samples. So the plain
+// filter always runs beside the aided one, which has to earn its place: it is published while its heading is found and
+// its predictions are no worse than the plain one's.
 #pragma once
 
-#include "fusion/estimators/nav_filter.h"
+#include "fusion/estimators/nav_pair.h"
 
 namespace locus {
 
@@ -31,7 +32,7 @@ class InertialEkf final : public Estimator {
     bool is_out_of_date(Timestamp time) const noexcept;
 
     InertialEkfSettings settings_;
-    NavFilter plain_;
+    NavPair plain_;
     NavFilter aided_;
     double misfit_plain_ = 0; ///< mean square of the last innovations, each clipped
     double misfit_aided_ = 0; ///< of the same measurements

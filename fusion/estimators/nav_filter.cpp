@@ -111,4 +111,16 @@ void NavFilter::restart_from(const NavFilter& other) noexcept {
     track_.keep_sensor(before);
 }
 
+void NavFilter::go_with(const NavFilter& other) noexcept {
+    const filter::MotionModel own = track_.motion_model();
+    *this = other;
+    track_.move_as(own);
+}
+
+bool NavFilter::interact(NavFilter& second, const filter::ModelPair::Mixing& mixing) noexcept {
+    if (!track_.is_laid_out_as(second.track_)) return false;
+    filter::interact(track_.state, track_.covariance, second.track_.state, second.track_.covariance, mixing);
+    return true;
+}
+
 } // namespace locus

@@ -5,6 +5,7 @@
 #include "fusion/estimators/inertial_ekf_settings.h"
 #include "fusion/estimators/nav_track.h"
 #include "fusion/estimators/range_filter.h"
+#include "fusion/filter/interacting.h"
 
 namespace locus {
 
@@ -19,6 +20,13 @@ class NavFilter final : public RangeFilter<NavTrack> {
 
     /// Takes over all that another one knows of the target; what the inertial sensor has taught stays.
     void restart_from(const NavFilter& other) noexcept;
+
+    /// Takes over all but how the target moves.
+    void go_with(const NavFilter& other) noexcept;
+    /// Both go on from mixtures (filter/interacting.h); false: they do not know the same things.
+    bool interact(NavFilter& second, const filter::ModelPair::Mixing& mixing) noexcept;
+    /// Of innovations of ranges as they come, over what is expected.
+    double innovation_spread() const noexcept { return robust_spread(); }
 
     using RangeFilter::forget_after;
     using RangeFilter::has_position;

@@ -36,6 +36,8 @@ class RangeFilter : public Estimator {
     /// Since the last range or range difference that was used; only where there is a position.
     double unheard_s(Timestamp time) const noexcept { return to_s(time - used_time_); }
 
+    double robust_spread() const noexcept { return robust_.spread(); }
+
     /// Carries the state to `time`, at or after its own.
     void move_to(Timestamp time) noexcept;
 

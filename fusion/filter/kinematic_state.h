@@ -19,6 +19,10 @@ class KinematicState : public WanderingState<MaxCore> {
 
     Eigen::Vector3d velocity_mps() const noexcept { return {this->state(1), this->state(4), this->state(7)}; }
 
+    /// How it moves without an inertial sensor.
+    const MotionModel& motion_model() const noexcept { return model_.motion; }
+    void move_as(const MotionModel& motion) noexcept { model_.motion = motion; }
+
   protected:
     /// At rest at `position_m` with covariance in m^2; all wanderers are forgotten.
     void start_motion(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& covariance_m2) noexcept {

@@ -30,11 +30,16 @@ Prediction<Vector> predict_scalar(const Matrix& covariance, const Vector& jacobi
 template <class Vector, class Matrix>
 void joseph(Matrix& covariance, const Vector& gain, const Prediction<Vector>& prediction, double variance) {
     // Product by product this is (I - K h')P(I - K h')' + K R K' = P - K u' - u K' with u as here. An entry and its
-    // mirror image are the same two products in another order: what was symmetric to the bit stays so.
+    // mirror image are the same two products in another order: what was symmetric to the bit stays so, as long as no
+    // compiler fuses a product with the sum (-ffp-contract=off). Plain loops: half the time of Eigen's columns here.
     const Vector rest = prediction.cross - 0.5 * (prediction.state_variance + variance) * gain;
-    for (Eigen::Index j = 0; j < gain.size(); ++j) covariance.col(j) -= rest(j) * gain + gain(j) * rest;
-    for (Eigen::Index j = 0; j < gain.size(); ++j)
-        for (Eigen::Index i = 0; i < j; ++i) covariance(j, i) = covariance(i, j);
+    const Eigen::Index size = gain.size();
+    const double *const u = rest.data(), *const k = gain.data();
+    for (Eigen::Index j = 0; j < size; ++j) {
+        double* const column = covariance.col(j).data();
+        const double uj = u[j], kj = k[j];
+        for (Eigen::Index i = 0; i < size; ++i) column[i] -= uj * k[i] + kj * u[i];
+    }
 }
 
 /// Takes in `share` of one observation with innovation `innovation` and variance `variance` > 0 (paper 001 eq. 9-11).

@@ -19,6 +19,7 @@ namespace locus::filter {
 struct WanderModel {
     double sigma = 0;
     double time_s = 1;
+    bool operator==(const WanderModel&) const = default;
 };
 
 /// `MaxCore`: room for the core, which always begins with position, velocity and a third number of each axis.
@@ -38,6 +39,14 @@ class WanderingState {
     /// Place in the state of the wanderer called `key`. One not met lately begins at its own sigma, and where there is
     /// no room takes the place of the one that was asked for longest ago.
     int wanderer(std::int32_t key, const WanderModel& model) noexcept;
+
+    /// Whether the numbers of both mean the same.
+    bool is_laid_out_as(const WanderingState& other) const noexcept {
+        const auto known = wanderers_.begin() + (size() - core_);
+        return core_ == other.core_ && size() == other.size() &&
+               std::equal(wanderers_.begin(), known, other.wanderers_.begin(),
+                          [](const Wanderer& a, const Wanderer& b) { return a.key == b.key; });
+    }
 
     static constexpr int place(int axis, int order) { return 3 * axis + order; } ///< order 0 m, 1 m/s, 2: the third
     int size() const noexcept { return static_cast<int>(state.size()); }
@@ -81,9 +90,14 @@ void WanderingState<MaxCore, MaxWanderers>::clear(int core) noexcept {
 template <int MaxCore, int MaxWanderers>
 template <class Move>
 void WanderingState<MaxCore, MaxWanderers>::wander(const Move& move, double dt_s) noexcept {
+    std::array<WanderStep, max_wanderers> steps; // the errors of all anchors are alike: most steps are known already
     for (int k = core_; k < size(); ++k) {
-        const WanderModel& model = wanderers_[k - core_].model;
-        const WanderStep step = wander_step(model.sigma, model.time_s, dt_s);
+        const auto here = wanderers_.begin() + (k - core_);
+        const auto like =
+            std::find_if(wanderers_.begin(), here, [&](const Wanderer& w) { return w.model == here->model; });
+        const WanderStep step =
+            like != here ? steps[like - wanderers_.begin()] : wander_step(here->model.sigma, here->model.time_s, dt_s);
+        steps[k - core_] = step;
         state(k) *= step.keep;
         move(covariance.col(k).head(core_), step.keep);
         covariance.col(k).segment(core_, k - core_) *= step.keep;

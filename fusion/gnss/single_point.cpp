@@ -93,15 +93,22 @@ bool agree(const LeastSquares<N>& equations, double normal_quantile) {
            equations.cost_after() <= chi_square_limit(equations.redundancy(), normal_quantile);
 }
 
-/// With one observation too many it shows that one is wrong, but not which.
+/// With one observation too many it shows that one is wrong, but not which. With two it shows which, if there is only
+/// one: between high houses there are more, and of six satellites five often agree by chance on a wrong place.
 template <int N>
 bool tells_which(const LeastSquares<N>& equations) {
-    return equations.redundancy() >= 2;
+    return equations.redundancy() >= 3;
 }
 
 template <class Outlying>
 SightFrom& odd_one(std::span<SightFrom> sights, const Outlying& outlying) {
     return *std::ranges::max_element(sights, {}, outlying);
+}
+
+/// Those that were left out one by one without the others coming to agree: nothing tells that they were the wrong ones.
+void bring_back(std::span<SightFrom> sights) {
+    for (SightFrom& s : sights)
+        if (s.reason == Exclusion::inconsistent) s.reason = Exclusion::none;
 }
 
 template <int N>
@@ -126,19 +133,20 @@ std::optional<SinglePoint> SinglePointSolver::solve(std::span<SightFrom> sights,
                                                     const Eigen::Vector3d& near_ecef_m) const noexcept {
     SinglePoint point;
     point.position_ecef_m = near_ecef_m;
-    for (std::size_t left_out = 0; left_out <= sights.size(); ++left_out) {
-        const auto equations = converge(sights, sky, observer_, point);
-        if (!equations) return std::nullopt;
-        point.consistent = agree(*equations, normal_quantile_);
-        if (point.consistent || !tells_which(*equations)) {
-            point.covariance_m2 =
-                equations->covariance().topLeftCorner<axes, axes>() * widening(*equations, point.consistent);
-            break;
-        }
+    auto equations = converge(sights, sky, observer_, point);
+    while (equations && !agree(*equations, normal_quantile_) && tells_which(*equations)) {
         odd_one(sights, [&](const SightFrom& s) {
             return gives_range(s) ? equations->outlying(range_row(s), range_residual_m(s, point), s.variance_m2) : -1;
         }).reason = Exclusion::inconsistent;
+        equations = converge(sights, sky, observer_, point);
     }
+    if (equations && !agree(*equations, normal_quantile_)) {
+        bring_back(sights);
+        equations = converge(sights, sky, observer_, point);
+    }
+    if (!equations) return std::nullopt;
+    point.consistent = agree(*equations, normal_quantile_);
+    point.covariance_m2 = equations->covariance().topLeftCorner<axes, axes>() * widening(*equations, point.consistent);
     if (!is_possible(point)) return std::nullopt;
     point.satellites = static_cast<int>(std::ranges::count_if(sights, gives_range));
     solve_velocity(sights, point);

@@ -1,6 +1,7 @@
-"""Places and velocities out of satellite ranges, for converters: the Earth (WGS-84), a fix of one epoch by least squares."""
+"""Places and velocities out of satellite ranges, for converters: the Earth (WGS-84) there and back, a fix of one epoch by least squares."""
 import math
 
+from conversion import Wrong
 from geometry import cauchy, solved
 
 SEMI_MAJOR_M, FLATTENING = 6378137.0, 1 / 298.257223563
@@ -15,6 +16,13 @@ def geodetic(x, y, z):
         height_m = flat / math.cos(latitude) - curvature_m
         latitude = math.atan2(z, flat * (1 - SQUARED_ECCENTRICITY * curvature_m / (curvature_m + height_m)))
     return latitude, math.atan2(y, x), height_m
+
+
+def ecef(latitude, longitude, height_m):
+    curvature_m = SEMI_MAJOR_M / math.sqrt(1 - SQUARED_ECCENTRICITY * math.sin(latitude) ** 2)
+    flat = (curvature_m + height_m) * math.cos(latitude)
+    return (flat * math.cos(longitude), flat * math.sin(longitude),
+            (curvature_m * (1 - SQUARED_ECCENTRICITY) + height_m) * math.sin(latitude))
 
 
 def east_north_up(latitude, longitude):
@@ -71,3 +79,22 @@ def fix(satellites, near_m, code_sigma_m, rate_sigma_mps):
 def sigma_enu(normal, scale, directions):
     """Standard deviations along the directions, by the normal matrix and what the residuals come to."""
     return [scale * max(dot(direction, solved(normal, [*direction, 0.0])[:3]), 0.0) ** 0.5 for direction in directions]
+
+
+def local_track(lines):
+    """From lines of time, latitude, longitude (radians), height: the first place, and rows of time, east, north, up of it."""
+    if not lines:
+        raise Wrong("there is no line with a place in the truth")
+    origin = lines[0][1:]
+    origin_m, directions = ecef(*origin), east_north_up(*origin[:2])
+    arms = ((one[0], [p - o for p, o in zip(ecef(*one[1:]), origin_m)]) for one in lines)
+    return origin, [[time_s, *(dot(direction, arm) for direction in directions)] for time_s, arm in arms]
+
+
+def vehicle_yaml(name, origin, target, tag, settings, gnss=""):
+    """Lines of a configuration: a site without anchors at a place on the Earth, one target with gnss_ins."""
+    latitude, longitude, height_m = origin
+    place = f"latitude_deg: {math.degrees(latitude):.9f}, longitude_deg: {math.degrees(longitude):.9f}, height_ellipsoid_m: {height_m:.4f}"
+    return ["site:", f"  name: {name}", "  anchors: []", f"  origin: {{{place}}}", "fusion: {estimator: gnss_ins}",
+            *([f"gnss: {gnss}"] if gnss else []), f"targets: [{{name: {target}, address: {tag}}}]",
+            f"estimators: {{gnss_ins: {{{', '.join(filter(None, settings))}}}}}"]

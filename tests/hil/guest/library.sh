@@ -17,11 +17,11 @@ feed_serial() {
   stty -F /dev/ttyGS0 raw -echo
   for ((i = 0; i < 3000; ++i)); do trek_line $i; sleep 0.1; done >/dev/ttyGS0
 }
-start_serial_feed() { feed_serial & serial_feed=$!; }
+start_serial_feed() { stop_serial_feed; feed_serial & serial_feed=$!; }
 stop_serial_feed() { stop "${serial_feed:-}"; }
 stop() { [ -z "$1" ] || { kill "$1"; wait "$1"; } 2>/dev/null; }
 
-start_can_feed() { canplayer -l i -I /out/guest/can.log vcan0=can & can_feed=$!; }
+start_can_feed() { stop_can_feed; canplayer -l i -I /out/guest/can.log vcan0=can & can_feed=$!; }
 stop_can_feed() { stop "${can_feed:-}"; }
 
 write_configuration() {

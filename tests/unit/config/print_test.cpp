@@ -101,6 +101,8 @@ Settings any_settings() {
     settings.publish.socket = "/run/\"odd\" \\name.sock";
     settings.engine.fusion.max_targets = 8;
     for (const auto i : up_to(5)) settings.engine.targets.push_back({any_name(i), address(i), ""});
+    const bool tells_nmea = site.origin && !settings.engine.targets.empty();
+    settings.nmea.target = tells_nmea ? settings.engine.targets.front().name : "";
     for (const auto i : up_to(4)) settings.inputs.push_back(any_input(i));
     for (const auto& row : estimator_table()) {
         const auto own = row.options.make();

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <cmath>
@@ -79,15 +80,18 @@ struct Bench {
 
 TEST(FusionLoop, AllocatesNothingAndTouchesNoNewPageOnceItRuns) {
     Bench bench{10};
-    // Warm: every ring was round once, so each of its pages was touched (the daemon locks them instead).
+    // As the daemon does: a snapshot may be used for the first time at any later moment, when a tick comes late.
+    const bool locked = ::mlockall(MCL_CURRENT) == 0;
     for (int i = 0; i < 2200; ++i) bench.cycle(i);
     const test::AllocationCount allocations;
     const long faults = page_faults();
     std::size_t positions = 0;
     for (int i = 0; i < 2000; ++i) positions += bench.cycle(i);
     EXPECT_EQ(allocations.made(), 0u);
-    if (!test::under_sanitizer) { // its shadow memory has pages of its own
-        EXPECT_EQ(page_faults() - faults, 0);
+    const long touched = page_faults() - faults;
+    ::munlockall();
+    if (locked && !test::under_sanitizer) { // its shadow memory has pages of its own
+        EXPECT_EQ(touched, 0);
     }
     EXPECT_EQ(positions, 20'000u) << "else nothing was proved";
 }

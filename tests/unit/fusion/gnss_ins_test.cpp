@@ -1,6 +1,7 @@
 // The vehicles' estimator on simulated drives: that it starts, aligns, is as sure as it may be, lives on one to three
 // satellites, tells bad ones and a jumping clock apart, and drives into a garage without a jump. Seeds are stated.
 #include "fusion/estimators/gnss_ins.h"
+#include "tests/allocations.h"
 #include "tests/support/heavy.h"
 #include "tests/unit/fusion/simulated_drive.h"
 
@@ -227,6 +228,18 @@ TEST(GnssIns, ACopyGoesOnToTheSameBits) {
     }
     EXPECT_EQ(car.estimate().position_site_m, copy.predict(car.drive.now()).position_site_m);
     EXPECT_EQ(car.estimate().covariance, copy.predict(car.drive.now()).covariance);
+}
+
+TEST(GnssIns, AllocatesNothingOnceItWasMade) {
+    Car car({}, {}, 12);
+    car.run(1, 9); // GeographicLib's gravity model is made at its first use
+    GnssIns copy(car.site, {});
+    const test::AllocationCount allocations;
+    car.run(20, 9);
+    copy.copy_from(car.filter);
+    const Estimate estimate = copy.predict(car.drive.now());
+    EXPECT_EQ(allocations.made(), 0U);
+    EXPECT_EQ(estimate.missing, Missing::nothing);
 }
 
 // ---- the garage: nine satellites until 30 s, three until 33 s, none after; anchors along the way from 36 s on

@@ -1,0 +1,13 @@
+// How a person looks, in a few numbers that a pose of the body does not change much: colour histograms of head, torso
+// and legs, square-rooted (so their product is Bhattacharyya's coefficient) and together of unit length.
+#pragma once
+
+#include "drivers/camera/picture.h"
+#include "fusion/vision/detection.h"
+
+namespace locus::camera {
+
+/// Empty for grey pictures and for boxes with next to nothing of them inside the image.
+vision::Appearance appearance(const Picture& picture, const vision::BoxPx& box);
+
+} // namespace locus::camera

@@ -1,0 +1,62 @@
+// Camera: one frame source, read by one thread of its own, each frame handed to one receiver. It opens its device,
+// opens it again after every loss, for ever, and counts all that happens: what drivers/input.h is for bytes.
+//
+//   Camera camera{{.source = make_v4l2_source(settings), .on_frame = [&](const Frame& frame) { ... }}};
+//   std::jthread thread{[&](std::stop_token stop) { camera.run(stop); }};
+#pragma once
+
+#include "drivers/back_off.h"
+#include "drivers/camera/frame_source.h"
+#include "drivers/input.h"
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace locus::camera {
+
+/// What any thread may read of a camera while its own thread runs.
+struct CameraStatus {
+    using Counter = std::atomic<std::uint64_t>;
+
+    std::atomic<InputState> state{InputState::starting};
+    Counter frames{0};
+    Counter dropped{0}; ///< taken by the camera, come to nobody: the driver or this thread was too slow
+    Counter damaged{0};
+    Counter reconnects{0};
+    std::atomic<std::int64_t> last_frame_ns{0}; ///< when the newest was captured, ns of CLOCK_MONOTONIC; 0: none yet
+    SharedText trouble;
+};
+
+struct CameraParts {
+    std::unique_ptr<FrameSource> source{};
+    std::function<void(const Frame&)> on_frame{};      ///< called in the camera's thread
+    std::function<void(const InputEvent&)> on_event{}; ///< the same; may be empty
+};
+
+class Camera {
+  public:
+    explicit Camera(CameraParts parts) : parts_{std::move(parts)} {}
+
+    /// Reads until asked to stop (heard within about 0.1 s) or a recording ends. Call it once, in its own thread.
+    void run(const std::stop_token& stop);
+    const CameraStatus& status() const { return status_; }
+
+  private:
+    bool open();
+    FrameStatus read_until_lost(const std::stop_token& stop);
+    void deliver();
+    void copy_counters();
+    void fail(InputEvent::Kind kind, std::string_view text);
+    void tell(InputEvent::Kind kind, std::string_view text) const;
+
+    CameraParts parts_;
+    CameraStatus status_;
+    BackOff back_off_;
+    Frame frame_;
+    std::string told_; ///< the trouble that was told last
+    bool was_open_ = false;
+};
+
+} // namespace locus::camera

@@ -1,0 +1,167 @@
+#include "drivers/camera/cover.h"
+
+#include "drivers/camera/person_shape.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace locus::camera {
+namespace {
+
+cv::Rect to_rect(const vision::BoxPx& box, const cv::Size& image) {
+    const auto left = static_cast<int>(std::lround(box.left_px));
+    const auto top = static_cast<int>(std::lround(box.top_px));
+    const auto right = static_cast<int>(std::lround(box.right_px()));
+    const auto bottom = static_cast<int>(std::lround(box.bottom_px()));
+    return cv::Rect{left, top, std::max(right - left, 1), std::max(bottom - top, 1)} & cv::Rect{{0, 0}, image};
+}
+
+vision::BoxPx to_box(const cv::Rect& rect) {
+    return {static_cast<float>(rect.x), static_cast<float>(rect.y), static_cast<float>(rect.width),
+            static_cast<float>(rect.height)};
+}
+
+int sum_in(const cv::Mat& integral, const cv::Rect& rect) {
+    return integral.at<int>(rect.br()) - integral.at<int>(rect.y, rect.br().x) - integral.at<int>(rect.br().y, rect.x) +
+           integral.at<int>(rect.tl());
+}
+
+/// What is left to explain, with sums over rectangles at once (Viola and Jones 2001).
+class Unexplained {
+  public:
+    Unexplained(const cv::Mat& foreground, const std::vector<vision::Detection>& known)
+        : foreground_{foreground.clone()}, open_(foreground.size(), CV_8UC1, cv::Scalar(1)) {
+        for (const auto& person : known) clear(to_rect(person.box, size()));
+        add_up();
+    }
+    int moving(const cv::Rect& rect) const { return sum_in(moving_sums_, rect); }
+    int open(const cv::Rect& rect) const { return sum_in(open_sums_, rect); }
+    void explain(const cv::Rect& rect) {
+        clear(rect);
+        add_up();
+    }
+    cv::Size size() const { return foreground_.size(); }
+    const cv::Mat& foreground() const { return foreground_; }
+
+  private:
+    void clear(const cv::Rect& rect) {
+        foreground_(rect).setTo(0);
+        open_(rect).setTo(0);
+    }
+    void add_up() {
+        cv::integral(foreground_ / 255, moving_sums_, CV_32S);
+        cv::integral(open_, open_sums_, CV_32S);
+    }
+    cv::Mat foreground_;
+    cv::Mat open_; ///< 1 where no box was laid yet
+    cv::Mat moving_sums_, open_sums_;
+};
+
+struct Candidate {
+    vision::BoxPx box;
+    cv::Rect rect; ///< what of it is inside the image
+    double gain = 0;
+    double filled = 0;
+};
+
+/// Positive when the box is filled enough, and the larger the more it explains; 0 of a box that is not worth it.
+Candidate weigh(const Unexplained& rest, const vision::BoxPx& box, const CoverSettings& settings) {
+    Candidate candidate{.box = box, .rect = to_rect(box, rest.size())};
+    const double area = static_cast<double>(box.width_px) * box.height_px;
+    if (candidate.rect.empty() || candidate.rect.area() < 0.5 * area) return candidate;
+    const double moving = rest.moving(candidate.rect);
+    const double open = rest.open(candidate.rect);
+    if (moving < settings.least_visible * area) return candidate;
+    candidate.filled = moving / open;
+    candidate.gain = (moving - settings.least_filled * open) / area;
+    return candidate;
+}
+
+template <class Visit>
+void each_place(const Unexplained& rest, const HeightMap& heights, const Visit& visit) {
+    for (int y = 1; y <= rest.size().height;) {
+        int step = 2;
+        for (int x = 0; x < rest.size().width;) {
+            const auto height = heights.at(static_cast<float>(x), static_cast<float>(y));
+            step = height ? std::max(1, static_cast<int>(*height / 24)) : 4;
+            if (height) visit(standing_box(static_cast<float>(x), static_cast<float>(y), *height));
+            x += step;
+        }
+        y += step;
+    }
+}
+
+std::vector<Candidate> candidates(const Unexplained& rest, const HeightMap& heights, const CoverSettings& settings) {
+    std::vector<Candidate> found;
+    each_place(rest, heights, [&](const vision::BoxPx& box) {
+        const Candidate candidate = weigh(rest, box, settings);
+        if (candidate.gain > 0) found.push_back(candidate);
+    });
+    return found;
+}
+
+/// The box drawn in to what moves inside it, where that still is a whole person: feet and head are where they are seen.
+vision::BoxPx drawn_in(const cv::Mat& foreground, const Candidate& candidate) {
+    const cv::Rect inside = cv::boundingRect(foreground(candidate.rect));
+    const cv::Rect tight = inside + candidate.rect.tl();
+    const bool is_whole = static_cast<float>(tight.height) >= least_of_expected * candidate.box.height_px;
+    if (!is_whole) return candidate.box;
+    const float middle_px = static_cast<float>(tight.x) + 0.5F * static_cast<float>(tight.width);
+    const float bottom_px = static_cast<float>(tight.br().y);
+    return standing_box(middle_px, bottom_px, static_cast<float>(tight.height));
+}
+
+} // namespace
+
+std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap& heights, const CoverSettings& settings,
+                                     const std::vector<vision::Detection>& known) {
+    std::vector<vision::Detection> people;
+    Unexplained rest{foreground, known};
+    auto places = candidates(rest, heights, settings);
+    while (!places.empty()) {
+        const auto best = std::max_element(places.begin(), places.end(),
+                                           [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });
+        const Candidate taken = *best;
+        people.push_back({drawn_in(rest.foreground(), taken), static_cast<float>(taken.filled), {}});
+        rest.explain(taken.rect);
+        for (Candidate& place : places)
+            if (!(place.rect & taken.rect).empty()) place = weigh(rest, place.box, settings);
+        std::erase_if(places, [](const Candidate& place) { return place.gain <= 0; });
+    }
+    return people;
+}
+
+float filled_share(const cv::Mat& foreground, const vision::BoxPx& box) {
+    const cv::Rect rect = to_rect(box, foreground.size());
+    if (rect.empty()) return 0;
+    return static_cast<float>(cv::countNonZero(foreground(rect))) / static_cast<float>(rect.area());
+}
+
+std::vector<vision::Detection> regions_as_people(const cv::Mat& foreground, float least_height_px) {
+    cv::Mat labels;
+    cv::Mat statistics;
+    cv::Mat centres;
+    const int count = cv::connectedComponentsWithStats(foreground, labels, statistics, centres);
+    std::vector<vision::Detection> regions;
+    for (int i = 1; i < count; ++i) { // 0 is the background
+        const auto value = [&](int column) { return statistics.at<int>(i, column); };
+        const cv::Rect rect{value(cv::CC_STAT_LEFT), value(cv::CC_STAT_TOP), value(cv::CC_STAT_WIDTH),
+                            value(cv::CC_STAT_HEIGHT)};
+        const auto filled = static_cast<float>(value(cv::CC_STAT_AREA)) / static_cast<float>(rect.area());
+        if (static_cast<float>(rect.height) >= least_height_px) regions.push_back({to_box(rect), filled, {}});
+    }
+    return regions;
+}
+
+bool is_lone_person(const vision::Detection& region, const cv::Size& image) {
+    const vision::BoxPx& box = region.box;
+    const float aspect = box.width_px / box.height_px;
+    const bool inside = box.left_px > 0 && box.top_px > 0 && box.right_px() < static_cast<float>(image.width) &&
+                        box.bottom_px() < static_cast<float>(image.height);
+    return inside && aspect > person_aspect / 2 && aspect < person_aspect * 1.5F && region.score > 0.4F;
+}
+
+} // namespace locus::camera

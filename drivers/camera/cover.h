@@ -1,0 +1,35 @@
+// Explains what moves by people. Boxes of the height that is expected at their feet are laid over the foreground, the
+// one that explains most of it first, until the rest is nobody: so fragments of one body become one person and groups
+// are parted, by one rule (the rectangles of Fleuret et al. 2008, "Multicamera people tracking with a probabilistic
+// occupancy map", laid greedily). For .cpp files of this room only.
+#pragma once
+
+#include "drivers/camera/height_map.h"
+
+#include <opencv2/core.hpp>
+
+#include <vector>
+
+namespace locus::camera {
+
+/// Of a box that stands about a walking person half the pixels are the person's; a third allows for clothes in the
+/// background's colour, and for a person who is half hidden by another.
+struct CoverSettings {
+    double least_filled = 0.33;  ///< of the box's pixels that no nearer person explains
+    double least_visible = 0.25; ///< of all its pixels
+};
+
+/// Boxes with their filled share as the score; what the boxes of `known` people explain is left out.
+std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap& heights, const CoverSettings& settings,
+                                     const std::vector<vision::Detection>& known = {});
+
+/// The share of a box's pixels that move, 0..1.
+float filled_share(const cv::Mat& foreground, const vision::BoxPx& box);
+
+/// Connected regions as they are, for as long as no height is known.
+std::vector<vision::Detection> regions_as_people(const cv::Mat& foreground, float least_height_px);
+
+/// Whether a region looks like one person who stands alone: solid, upright, whole inside the image.
+bool is_lone_person(const vision::Detection& region, const cv::Size& image);
+
+} // namespace locus::camera

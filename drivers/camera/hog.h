@@ -1,0 +1,35 @@
+// Histograms of oriented gradients with OpenCV's own people detector (Dalal and Triggs 2005, "Histograms of oriented
+// gradients for human detection"). For .cpp files of this room only.
+#pragma once
+
+#include "fusion/vision/detection.h"
+
+#include <opencv2/objdetect.hpp>
+
+#include <vector>
+
+namespace locus::camera {
+
+/// Smallest: half of what the detector was taught with, so that the picture is doubled. Margin and overlap: windows of
+/// a plainly positive margin; the boxes of two people overlap by less than half.
+struct HogSettings {
+    double least_outline_px = 48;
+    double least_margin = 0.3;
+    double scale_step = 1.05;
+    double most_iou = 0.45;
+};
+
+class Hog {
+  public:
+    explicit Hog(const HogSettings& settings);
+
+    /// Every window that holds a person at least `least_outline_px` high, several for each. The score is the margin of
+    /// the support vector machine.
+    std::vector<vision::Detection> find(const cv::Mat& picture) const;
+
+  private:
+    HogSettings settings_;
+    cv::HOGDescriptor descriptor_;
+};
+
+} // namespace locus::camera
