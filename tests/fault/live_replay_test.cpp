@@ -5,6 +5,7 @@
 #include "daemon/socket/pose_line.h"
 #include "tests/support/daemon_process.h"
 #include "tests/support/socket_client.h"
+#include "tests/support/source_folder.h"
 #include "tests/unit/tools/fake_daemon.h"
 #include "tools/play/player.h"
 #include "tools/replay/recording.h"
@@ -166,7 +167,7 @@ sensors:
 /// Eight seconds of a person who runs through a sports hall, as a TREK1000 printed it.
 TEST_F(LiveReplay, OfTheSportsHall) {
     const char* named = std::getenv("LOCUS_DATA");
-    const std::filesystem::path source = LOCUS_SOURCE_DIR;
+    const std::filesystem::path source = test::source_folder();
     const auto data = (named ? std::filesystem::path(named) : source / "../shared/data") / "cliansang_uwb_vicon";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no cliansang_uwb_vicon in LOCUS_DATA or ../shared/data";
     const auto converter = source / "tools/convert/cliansang_uwb";

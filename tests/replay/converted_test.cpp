@@ -3,6 +3,7 @@
 // with the data where they are met, else what others published of the same recordings.
 #include "config/load.h"
 #include "tests/replay/data.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/evaluate/read.h"
 #include "tools/evaluate/statistics.h"
@@ -71,8 +72,8 @@ constexpr Recording recordings[]{
 };
 
 void convert(const Recording& recording, const std::filesystem::path& data, const std::string& folder) {
-    const std::string command = std::string("python3 '") + LOCUS_SOURCE_DIR + "/tools/convert/" + recording.converter +
-                                "' '" + data.string() + "' " + recording.run + " --out '" + folder + "' > /dev/null";
+    const std::string command = "python3 '" + test::source_folder() + "/tools/convert/" + recording.converter + "' '" +
+                                data.string() + "' " + recording.run + " --out '" + folder + "' > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command; // NOLINT(cert-env33-c,concurrency-mt-unsafe): one thread
 }
 

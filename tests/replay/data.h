@@ -1,6 +1,8 @@
 // Where the recordings are: nothing of them is copied into the project, and tests skip where they are not.
 #pragma once
 
+#include "tests/support/source_folder.h"
+
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -15,7 +17,8 @@ namespace locus::test {
 /// A file or folder of LOCUS_DATA or ../shared/data, if it is there.
 inline std::optional<std::filesystem::path> recorded(const std::string& name) {
     const char* named = std::getenv("LOCUS_DATA");
-    const auto data = named ? std::filesystem::path(named) : std::filesystem::path(LOCUS_SOURCE_DIR) / "../shared/data";
+    const auto data =
+        named ? std::filesystem::path(named) : std::filesystem::path(test::source_folder()) / "../shared/data";
     const auto found = data / name;
     return std::filesystem::exists(found) ? std::optional(found) : std::nullopt;
 }

@@ -2,6 +2,7 @@
 // a converter and the engine to the scoring of `locus evaluate` (docs/accuracy.md).
 #include "config/load.h"
 #include "tests/replay/data.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/evaluate/read.h"
 #include "tools/evaluate/statistics.h"
@@ -72,8 +73,8 @@ std::string convert_drive(const GnssDrive& drive, const std::filesystem::path& d
     importing::Request request{{}, folder + "/imported.jsonl", address(7)};
     for (const char* file : drive.files) request.files.push_back((data / file).string());
     importing::import_files(request);
-    const std::string command = std::string("python3 '") + LOCUS_SOURCE_DIR + "/tools/convert/'" + drive.converter +
-                                " '" + request.output + "' '" + data.string() + "' --name drive --out '" + folder +
+    const std::string command = "python3 '" + test::source_folder() + "/tools/convert/'" + drive.converter + " '" +
+                                request.output + "' '" + data.string() + "' --name drive --out '" + folder +
                                 "' > /dev/null";
     EXPECT_EQ(std::system(command.c_str()), 0) << command; // NOLINT(cert-env33-c,concurrency-mt-unsafe): one thread
     return folder + "/drive";

@@ -3,6 +3,7 @@
 // less their mean; they are the better of the paper's own and a quick reference's that came with the data.
 #include "config/load.h"
 #include "tests/replay/data.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/evaluate/read.h"
 #include "tools/evaluate/statistics.h"
@@ -32,7 +33,7 @@ constexpr const char* loose_bare =
     "use_pressure: false";
 
 std::string converted(const std::filesystem::path& data, const std::string& folder) {
-    const std::string command = std::string("python3 '") + LOCUS_SOURCE_DIR + "/tools/convert/ixr_tsukishima' '" +
+    const std::string command = "python3 '" + test::source_folder() + "/tools/convert/ixr_tsukishima' '" +
                                 data.string() + "' --out '" + folder + "' > /dev/null";
     EXPECT_EQ(std::system(command.c_str()), 0) << command; // NOLINT(cert-env33-c,concurrency-mt-unsafe): one thread
     return folder + "/tsukishima";

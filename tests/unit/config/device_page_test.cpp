@@ -1,5 +1,6 @@
 // docs/devices.md: every line of configuration that it offers is a good one, and no decoder is missing from it.
 #include "load_fixture.h"
+#include "tests/support/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace locus {
 namespace {
 
 std::string device_page() {
-    std::ifstream file(LOCUS_SOURCE_DIR "/docs/devices.md");
+    std::ifstream file(test::source_folder() + "/docs/devices.md");
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

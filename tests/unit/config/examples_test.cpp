@@ -1,5 +1,6 @@
 // The examples that people start from are good files.
 #include "config/load.h"
+#include "tests/support/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 std::vector<std::string> examples() {
     std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(LOCUS_SOURCE_DIR "/config/examples"))
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/config/examples"))
         if (entry.path().string().find("scenario") == std::string::npos) files.push_back(entry.path().string());
     return files;
 }

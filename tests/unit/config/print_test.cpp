@@ -2,6 +2,7 @@
 #include "config/section.h"
 #include "config/value.h"
 #include "load_fixture.h"
+#include "tests/support/source_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -137,7 +138,7 @@ TEST(Print, ShowsEveryOptionAlsoTheDefaults) {
 }
 
 TEST(Reference, CommittedPageIsTheGeneratedOne) {
-    std::ifstream file(LOCUS_SOURCE_DIR "/docs/settings.md");
+    std::ifstream file(test::source_folder() + "/docs/settings.md");
     const std::string committed{std::istreambuf_iterator<char>(file), {}};
     EXPECT_TRUE(committed == reference_page())
         << "docs/settings.md is out of date: write it anew with `locus config --reference > docs/settings.md`";

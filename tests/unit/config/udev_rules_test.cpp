@@ -1,5 +1,7 @@
 // systemd/60-locusd.rules: every line is one that udev understands (Debian 12 has no `udevadm verify`), no jump leads
 // nowhere, and the device page names the families that the rules name.
+#include "tests/support/source_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,13 +14,13 @@ namespace locus {
 namespace {
 
 std::string text_of(const std::string& path) {
-    std::ifstream file(LOCUS_SOURCE_DIR + path);
+    std::ifstream file(test::source_folder() + path);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::vector<std::string> udev_lines() {
     std::vector<std::string> lines;
-    std::ifstream file(LOCUS_SOURCE_DIR "/systemd/60-locusd.rules");
+    std::ifstream file(test::source_folder() + "/systemd/60-locusd.rules");
     for (std::string line; std::getline(file, line);)
         if (!line.empty() && line[0] != '#') lines.push_back(line);
     return lines;

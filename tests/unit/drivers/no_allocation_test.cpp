@@ -2,6 +2,7 @@
 // its own good frames and rubbish while allocations are counted.
 #include "tests/allocations.h"
 #include "tests/examples/decoder_example.h"
+#include "tests/support/source_folder.h"
 #include "tests/unit/drivers/collector.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(Decoders, EachHasExamplesAndACorpus) {
     for (const DecoderRow& row : decoder_table()) {
         EXPECT_TRUE(std::ranges::any_of(examples::all(), [&](const auto& e) { return e.decoder == row.name; }))
             << row.name << ": add a file to tests/examples";
-        EXPECT_TRUE(std::filesystem::is_directory(LOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + std::string{row.name}))
+        EXPECT_TRUE(
+            std::filesystem::is_directory(test::source_folder() + "/tests/fuzz/corpus/" + std::string{row.name}))
             << row.name << ": add it to tests/fuzz/CMakeLists.txt, with a corpus";
     }
 }

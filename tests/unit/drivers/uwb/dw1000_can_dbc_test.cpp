@@ -2,6 +2,7 @@
 // (protocols.md 6.5) and by the decoder.
 #include "drivers/uwb/dw1000_can.h"
 
+#include "tests/support/source_folder.h"
 #include "tests/unit/drivers/collector.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ using DbcMessage = std::map<std::string, DbcSignal>;
 std::map<unsigned, DbcMessage> read_dbc() {
     const std::regex message(R"(^BO_ (\d+) \w+: 8 .*)");
     const std::regex signal(R"(^ SG_ (\w+) : (\d+)\|(\d+)@1([+-]) \(([^,]+),([^)]+)\) \[([^|]+)\|([^\]]+)\] .*)");
-    std::ifstream file(LOCUS_SOURCE_DIR "/drivers/uwb/dw1000_can.dbc");
+    std::ifstream file(test::source_folder() + "/drivers/uwb/dw1000_can.dbc");
     std::map<unsigned, DbcMessage> messages;
     DbcMessage* current = nullptr;
     std::smatch m;

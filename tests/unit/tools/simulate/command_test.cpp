@@ -1,4 +1,5 @@
 // locus simulate as it is typed.
+#include "tests/support/source_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/command.h"
 
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 class SimulateCommand : public ::testing::Test {
   protected:
     test::TemporaryFolder room;
-    const std::string demo = LOCUS_SOURCE_DIR "/config/examples/demo-scenario.yaml";
+    const std::string demo = test::source_folder() + "/config/examples/demo-scenario.yaml";
     std::string out, err;
 
     std::string at(const std::string& name) const { return room / name; }

@@ -1,3 +1,4 @@
+#include "tests/support/source_folder.h"
 #include "tools/simulate/scenario.h"
 
 #include <gmock/gmock.h>
@@ -98,14 +99,14 @@ TEST(PrintConfiguration, IsWhatTheDaemonLoads) {
 }
 
 TEST(ScenarioPage, IsTheOneInDocs) {
-    std::ifstream file(LOCUS_SOURCE_DIR "/docs/scenario.md");
+    std::ifstream file(test::source_folder() + "/docs/scenario.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     EXPECT_TRUE(page == scenario_page()) << "write it anew: locus simulate --reference > docs/scenario.md";
 }
 
 TEST(Examples, ScenariosLoadAndGiveConfigurations) {
     for (const char* name : {"demo-scenario.yaml", "can-scenario.yaml"}) {
-        const auto result = load_scenario(std::string(LOCUS_SOURCE_DIR "/config/examples/") + name);
+        const auto result = load_scenario(test::source_folder() + "/config/examples/" + name);
         ASSERT_TRUE(result.scenario) << name << to_string(result.problems.at(0));
         EXPECT_TRUE(load_settings_text(print_configuration(*result.scenario, ""), name).settings);
     }
