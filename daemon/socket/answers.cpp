@@ -211,7 +211,7 @@ std::string poll_lines(const Picture& picture, const Roster& roster) {
     std::size_t poses = 0;
     for (const auto& [address, view] : picture.targets()) {
         if (!is_publishable(view.pose)) continue;
-        lines += open_pose_line(view.pose, roster.names.target(address), view.reset_count()) + "}\n";
+        lines += open_pose_line(view.pose, roster.names, view.reset_count()) + "}\n";
         ++poses;
     }
     return lines + line({{"class", "POLL"}, {"poses", poses}});

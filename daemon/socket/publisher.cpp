@@ -189,7 +189,8 @@ void Publisher::take_smoothed(const Pose& pose) {
         if (!client.watch.wants_smoothed(name)) continue;
         if (!is_due(previous, pose.estimate.time, client.watch.rate_hz)) continue;
         if (!line)
-            line = std::make_shared<const std::string>(open_pose_line(pose, name, view.reset_count(), "SMOOTHED"));
+            line = std::make_shared<const std::string>(
+                open_pose_line(pose, roster_->names, view.reset_count(), "SMOOTHED"));
         client.queue.push_pose(line);
     }
 }
@@ -204,7 +205,8 @@ void Publisher::take_pose(const PoseItem& item) {
     for (auto& [id, client] : clients_) {
         if (!client.watch.wants(name)) continue;
         if (!is_due(view.previous, view.pose.estimate.time, client.watch.rate_hz)) continue;
-        if (!line) line = std::make_shared<const std::string>(open_pose_line(view.pose, name, view.reset_count()));
+        if (!line)
+            line = std::make_shared<const std::string>(open_pose_line(view.pose, roster_->names, view.reset_count()));
         client.queue.push_pose(line);
     }
 }
