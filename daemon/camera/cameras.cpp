@@ -31,9 +31,18 @@ camera::CameraParts RunningCamera::Body::parts() {
 void RunningCamera::Body::see(const camera::Frame& frame) {
     InputStatus& status = device.status();
     status.bytes += frame.picture.pixels.size();
-    onlooker.look(frame);
+    const auto tracks = onlooker.look(frame);
     tell_trouble();
     for (const FootPoint& foot : onlooker.feet(address)) give(foot, frame.captured);
+    show(frame, tracks);
+}
+
+void RunningCamera::Body::show(const camera::Frame& frame, std::span<const vision::ImageTrack> tracks) {
+    const auto names = view.asked();
+    if (!names.has_value()) return;
+    camera::Picture picture = frame.picture;
+    camera::annotate(picture, tracks, names.value(), onlooker.floor());
+    view.show(camera::to_jpeg(picture));
 }
 
 /// A recording gets it as a line of bytes, stamped when it came, as if a device had sent it.
@@ -71,7 +80,7 @@ std::vector<InputEntry> entries(const CameraSet& cameras) {
     std::vector<InputEntry> entries;
     for (const auto& [settings, fingerprint, running] : cameras.slots())
         entries.push_back({settings.name, std::string{settings.source->name}, std::string{settings.detector->name},
-                           running ? running->status() : nullptr});
+                           running ? running->status() : nullptr, running ? running->view() : nullptr});
     return entries;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "daemon/camera/onlooker.h"
+#include "daemon/camera/viewfinder.h"
 #include "daemon/event_log.h"
 #include "daemon/realtime.h"
 #include "daemon/running_set.h"
@@ -27,6 +28,7 @@ class RunningCamera {
     /// Both may outlive this.
     std::shared_ptr<MeasurementRing> ring() const { return {body_, &body_->ring}; }
     std::shared_ptr<const InputStatus> status() const { return {body_, &body_->device.status()}; }
+    std::shared_ptr<Viewfinder> view() const { return {body_, &body_->view}; }
 
     /// Foot points hold their camera's address.
     static bool may_move_to(std::size_t place, std::size_t before) { return place == before; }
@@ -38,6 +40,7 @@ class RunningCamera {
         void see(const camera::Frame& frame);
         void give(const FootPoint& foot, Timestamp time);
         void tell_trouble();
+        void show(const camera::Frame& frame, std::span<const vision::ImageTrack> tracks);
 
         std::string name;
         camera::FrameSourceRow source;
@@ -46,6 +49,7 @@ class RunningCamera {
         LogFile* recording;
         EventLog log;
         Onlooker onlooker;
+        Viewfinder view;
         std::string told; ///< the onlooker's trouble that was told last
         std::uint32_t sequence = 0;
         MeasurementRing ring;

@@ -217,6 +217,10 @@ std::string poll_lines(const Picture& picture, const Roster& roster) {
     return lines + line({{"class", "POLL"}, {"poses", poses}});
 }
 
+std::string view_line(const std::string& camera, const std::string& jpeg_base64) {
+    return line({{"class", "VIEW"}, {"camera", camera}, {"jpeg_base64", jpeg_base64}});
+}
+
 std::string reload_line(bool ok, const std::vector<std::string>& problems) {
     return line({{"class", "RELOAD"}, {"ok", ok}, {"problems", problems}});
 }

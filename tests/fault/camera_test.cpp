@@ -194,6 +194,9 @@ TEST_F(CameraDaemon, NamesWhomItSeesAndCarriesHimWhenHisTagFallsSilent) {
     EXPECT_EQ(camera["name"], "gate");
     EXPECT_EQ(camera["state"], "open");
     EXPECT_GT(camera["measurements"], 0);
+    const std::string jpeg = client.ask("?VIEW={\"camera\":\"gate\"};", "VIEW").value("jpeg_base64", "");
+    EXPECT_TRUE(jpeg.starts_with("/9j/")) << "as every JPEG file in base64";
+    EXPECT_NE(client.ask("?VIEW={\"camera\":\"door\"};", "ERROR").value("message", "").find("gate"), std::string::npos);
     std::this_thread::sleep_for(std::chrono::seconds{2}); // twice lost_after_s
     EXPECT_TRUE(pose_comes(client, false, [&](const nlohmann::json& pose) {
         return pose["target"] == "walker" && is_the_walker(pose) && pose["kinds_used"] == nlohmann::json{"FOOT_POINT"};

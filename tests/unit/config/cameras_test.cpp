@@ -58,7 +58,7 @@ TEST(Cameras, ThatCannotBeAreRefusedWithASentence) {
 }
 
 TEST(Cameras, AndInputsHaveNamesOfTheirOwn) {
-    EXPECT_NE(first_problem("inputs: [{name: a, transport: tcp, host: h, port: 1, decoder: nmea}]\n"
+    EXPECT_NE(first_problem("inputs: [{name: a, transport: tcp, host: h, port: 1, decoder: nmea, tag: 5}]\n"
                             "cameras: [{name: a, source: recorded, path: /x.avi, detector: motion}]")
                   .find("both an input and a camera"),
               std::string::npos);
