@@ -1,12 +1,12 @@
 #include "fusion/estimators/nav_filter.h"
 
+#include "fusion/estimators/carried_keys.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace locus {
 namespace {
-
-constexpr std::int32_t height_error = -2; ///< beside the anchors' indices and the common range error
 
 NavModel nav_model(const InertialEkfSettings& s) {
     NavModel model;
@@ -27,7 +27,8 @@ struct Standstill {
     double sigma_mps;
     Duration period;
 };
-constexpr Standstill whole_body{0.05, std::chrono::milliseconds{100}}, standing_foot{0.03, std::chrono::milliseconds{20}};
+constexpr Standstill whole_body{0.05, std::chrono::milliseconds{100}},
+    standing_foot{0.03, std::chrono::milliseconds{20}};
 constexpr double least_speed_mps = 0.01;
 
 double variance(float stated_sigma, double otherwise) {
@@ -81,7 +82,7 @@ void NavFilter::stand(double sigma_mps) noexcept {
 Verdict NavFilter::take(const Height& height) noexcept {
     Scalar scalar;
     const filter::WanderModel error{settings_.height_error_sigma_m, settings_.height_error_time_s};
-    const int error_at = track_.wanderer(height_error, error);
+    const int error_at = track_.wanderer(carried::height, error);
     scalar.jacobian.setZero(track_.size());
     track_.spread_gradient(Eigen::Vector3d::UnitZ(), scalar.jacobian);
     scalar.jacobian(error_at) = 1;

@@ -1,5 +1,6 @@
 // What a navigation filter makes of the feet that a camera sees: who stands on the floor has his tag above his feet,
 // and at about the height at which tags are worn.
+#include "fusion/estimators/carried_keys.h"
 #include "fusion/estimators/nav_filter.h"
 #include "fusion/geometry/vector.h"
 
@@ -9,15 +10,6 @@
 
 namespace locus {
 namespace {
-
-/// Keys of carried errors, beside the anchors' indices and those of nav_filter.cpp: two for each camera, and one.
-constexpr std::int32_t floor_error = -3;
-constexpr std::int32_t foot_error = -4;
-constexpr std::uint64_t cameras_apart = 1024; ///< beyond it two cameras may share their errors
-
-std::int32_t foot_error_of(Address camera, int axis) {
-    return foot_error - 2 * static_cast<std::int32_t>(number(camera) % cameras_apart) - axis;
-}
 
 /// Of the body's sway, new at each step; the rest of the doubt in the height is carried.
 constexpr double sway_sigma_m = 0.05;
@@ -62,8 +54,8 @@ void NavFilter::start_on_foot(const FootPoint& foot, Timestamp time) noexcept {
 Verdict NavFilter::see_feet(const FootPoint& foot, const Eigen::Vector2d& axis, double variance_m2,
                             filter::Gate& gate) noexcept {
     const filter::WanderModel error{settings_.foot_error_sigma_m, settings_.foot_error_time_s};
-    const int error_at[] = {track_.wanderer(foot_error_of(foot.camera, 0), error),
-                            track_.wanderer(foot_error_of(foot.camera, 1), error)};
+    const int error_at[] = {track_.wanderer(carried::feet(foot.camera, 0), error),
+                            track_.wanderer(carried::feet(foot.camera, 1), error)};
     Scalar scalar;
     scalar.jacobian.setZero(track_.size());
     track_.spread_gradient({axis.x(), axis.y(), 0}, scalar.jacobian);
@@ -79,7 +71,8 @@ Verdict NavFilter::see_feet(const FootPoint& foot, const Eigen::Vector2d& axis, 
 
 void NavFilter::stand_on_floor() noexcept {
     if (settings_.planar) return;
-    const int error_at = track_.wanderer(floor_error, {settings_.tag_height_sigma_m, settings_.tag_height_time_s});
+    const int error_at =
+        track_.wanderer(carried::worn_height, {settings_.tag_height_sigma_m, settings_.tag_height_time_s});
     Scalar scalar;
     scalar.jacobian.setZero(track_.size());
     track_.spread_gradient(Eigen::Vector3d::UnitZ(), scalar.jacobian);

@@ -1,5 +1,6 @@
 #include "fusion/estimators/range_expectation.h"
 
+#include "fusion/estimators/carried_keys.h"
 #include "fusion/estimators/nav_track.h"
 #include "fusion/filter/track_state.h"
 
@@ -8,18 +9,13 @@
 namespace locus {
 namespace {
 
-/// An anchor's passing error is called by its index; these are the error that all ranges have in common, and an
-/// anchor's offset. -2 is the height sensor's (nav_filter.cpp).
-constexpr std::int32_t common_range_error = -1;
-constexpr std::int32_t offset_of(std::int16_t anchor) { return -3 - anchor; }
-
 struct Carried {
     int place = -1; ///< in the state; -1: there is none
     double sign = 1;
 };
 
 template <class Track>
-Carried carried(std::int32_t key, double sign, const filter::WanderModel& model, Track& track) {
+Carried carry(std::int32_t key, double sign, const filter::WanderModel& model, Track& track) {
     return {model.sigma > 0 ? track.wanderer(key, model) : -1, sign};
 }
 
@@ -29,10 +25,10 @@ template <class Track>
 RangeExpectation<Track> expect(const uwb::Sighting& sighting, const Site& site, const CarriedErrors& errors,
                                Track& track) noexcept {
     const bool alone = sighting.is_range();
-    const std::array all{carried(sighting.plus, 1, errors.anchor, track),
-                         alone ? carried(common_range_error, 1, errors.common, track)
-                               : carried(sighting.minus, -1, errors.anchor, track),
-                         alone ? carried(offset_of(sighting.plus), 1, errors.offset, track) : Carried{}};
+    const std::array all{carry(carried::passing(sighting.plus), 1, errors.anchor, track),
+                         alone ? carry(carried::common_range, 1, errors.common, track)
+                               : carry(carried::passing(sighting.minus), -1, errors.anchor, track),
+                         alone ? carry(carried::offset(sighting.plus), 1, errors.offset, track) : Carried{}};
     RangeExpectation<Track> expectation;
     expectation.jacobian.setZero(track.size());
     const Eigen::Vector3d antenna_site_m = track.antenna_site_m();
