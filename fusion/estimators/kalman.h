@@ -38,16 +38,18 @@ struct PcaKalmanSettings : KalmanSettings {
     double straight = filter::PcaModel{}.straight;
 };
 
+template <class Settings>
 inline constexpr std::array pca_options{
-    option<&PcaKalmanSettings::window>("window", "", 5, filter::PcaWindow::most,
-                                       "Positions, at most, that the principal axis is made from."),
-    option<&PcaKalmanSettings::straight>(
+    option<&PcaKalmanSettings::window, Settings>("window", "", 5, filter::PcaWindow::most,
+                                                 "Positions, at most, that the principal axis is made from."),
+    option<&PcaKalmanSettings::straight, Settings>(
         "straight", "", 0.1, 1000,
         "Variance across the principal axis, over that of the positions, up to which they are one straight piece."),
 };
 
 inline constexpr auto all_pca_options =
-    joined(joined(epoch_estimator_options<PcaKalmanSettings>, velocity_options<PcaKalmanSettings>), pca_options);
+    joined(joined(epoch_estimator_options<PcaKalmanSettings>, velocity_options<PcaKalmanSettings>),
+           pca_options<PcaKalmanSettings>);
 
 filter::FixFilterModel fix_filter_model(const KalmanSettings& settings) noexcept;
 /// Each fix's variance in the shares that an anchor's noise and held error have of a range's.
