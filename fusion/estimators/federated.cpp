@@ -13,8 +13,8 @@ KalmanSettings shared(KalmanSettings settings, double share) {
     return settings;
 }
 
-PcaKalmanSettings uwb_settings(const FederatedSettings& settings) {
-    PcaKalmanSettings uwb = settings;
+CarriedPcaSettings uwb_settings(const FederatedSettings& settings) {
+    CarriedPcaSettings uwb = settings;
     static_cast<KalmanSettings&>(uwb) = shared(uwb, settings.uwb_share);
     return uwb;
 }

@@ -27,7 +27,7 @@ class Federated final : public Estimator {
     void copy_from(const Estimator& other) noexcept override { *this = static_cast<const Federated&>(other); }
 
   private:
-    using UwbFilter = EpochEstimator<PcaKalman>;
+    using UwbFilter = EpochEstimator<CarriedPca>;
 
     Verdict hear(const Measurement& measurement) noexcept;
     Verdict see(const FootPoint& foot, const Measurement& measurement) noexcept;

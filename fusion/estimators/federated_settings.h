@@ -15,7 +15,7 @@
 
 namespace locus {
 
-struct FederatedSettings : PcaKalmanSettings {
+struct FederatedSettings : CarriedPcaSettings {
     FederatedSettings() {
         planar = true; // always
         height_m = 1.0;
@@ -31,6 +31,8 @@ struct FederatedSettings : PcaKalmanSettings {
 };
 
 inline constexpr std::array federated_only_options{
+    option<&CarriedPcaSettings::anchor_error_time_s, FederatedSettings>(
+        "anchor_error_time_s", "s", 0.01, 1e6, "Time in which an anchor's error becomes another one."),
     option<&FederatedSettings::height_m, FederatedSettings>(
         "tag_height_m", "m", -1e5, 1e5, "Height over the floor at which people wear the tag; not estimated."),
     option<&FederatedSettings::tag_height_sigma_m>("tag_height_sigma_m", "m", 0, 100,
