@@ -1,22 +1,17 @@
 #include "fusion/estimators/federated.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace locus {
 namespace {
 
-/// Of the target's motion, as the local filter with `share` of the information must take it (filter/information_sum.h).
-KalmanSettings shared(KalmanSettings settings, double share) {
+/// With the target's motion as the local filter of `share` of the information must take it (filter/information_sum.h).
+FederatedSettings shared(FederatedSettings settings, double share) {
     settings.velocity_walk /= std::sqrt(share);
     settings.speed_sigma_mps /= std::sqrt(share);
     return settings;
-}
-
-CarriedPcaSettings uwb_settings(const FederatedSettings& settings) {
-    CarriedPcaSettings uwb = settings;
-    static_cast<KalmanSettings&>(uwb) = shared(uwb, settings.uwb_share);
-    return uwb;
 }
 
 /// Square of the distance that two coordinates together exceed by chance.
@@ -39,8 +34,8 @@ constexpr double chance_of_contradiction = 0.01;
 } // namespace
 
 Federated::Federated(const Site& site, const FederatedSettings& settings)
-    : settings_(settings), uwb_(site, uwb_settings(settings)), fresh_uwb_(uwb_), feet_(foot_model(settings)),
-      chance_(squared_gate(chance_of_contradiction)) {}
+    : settings_(settings), uwb_(site, shared(settings, settings.uwb_share)), fresh_uwb_(uwb_),
+      feet_(foot_model(settings)), chance_(squared_gate(chance_of_contradiction)) {}
 
 Verdict Federated::update(const Measurement& measurement) noexcept {
     if (const auto* foot = std::get_if<FootPoint>(&measurement.observation)) return see(*foot, measurement);

@@ -14,10 +14,9 @@ constexpr double least_foot_sigma_m = 0.01;
 
 Eigen::Matrix3d covariance_of(const FootPoint& foot, double beside_sigma_m) noexcept {
     const double beside_m2 = std::max(beside_sigma_m * beside_sigma_m, least_foot_sigma_m * least_foot_sigma_m);
-    const double xx = double{foot.covariance_m2[0]}, xy = double{foot.covariance_m2[1]},
-                 yy = double{foot.covariance_m2[2]};
+    const Eigen::Vector3d m2 = Eigen::Vector3f(foot.covariance_m2.data()).cast<double>();
     Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-    covariance_m2.topLeftCorner<2, 2>() << xx, xy, xy, yy;
+    covariance_m2.topLeftCorner<2, 2>() << m2(0), m2(1), m2(1), m2(2);
     covariance_m2.diagonal().head<2>().array() += beside_m2;
     return covariance_m2;
 }

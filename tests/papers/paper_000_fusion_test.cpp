@@ -118,7 +118,7 @@ struct Crew {
     ByTheLetter letter;
     Timestamp last_seen{};
 
-    void hear(const std::vector<Measurement>& all) {
+    void hear(const std::vector<Measurement>& all) const {
         for (Estimator* e : {fixes.get(), pca.get(), heard.get(), both.get(), ours_heard.get(), ours.get()})
             for (const Measurement& m : all) e->update(m);
     }

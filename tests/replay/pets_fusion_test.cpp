@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <string>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace locus::test {
 namespace {
@@ -29,8 +32,10 @@ std::vector<Arriving> as_they_come(const PetsRanges& ranges, const std::vector<P
     for (const PetsImage& image : images)
         for (const Measurement& m : image.feet)
             if (with_images) all.push_back({m.time + duration_from_s(image_late_s), m});
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.arrival < b.arrival; });
     for (std::size_t i = 0; i < all.size(); ++i) all[i].measurement.sequence = static_cast<std::uint32_t>(i);
+    std::sort(all.begin(), all.end(), [](const Arriving& a, const Arriving& b) {
+        return std::pair(a.arrival, a.measurement.sequence) < std::pair(b.arrival, b.measurement.sequence);
+    });
     return all;
 }
 

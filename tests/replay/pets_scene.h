@@ -158,8 +158,10 @@ inline PetsRanges pets_ranges(const PetsScene& scene, unsigned seed, bool with_b
         }
         ranges.blocked += blockage.count;
     }
-    std::stable_sort(ranges.all.begin(), ranges.all.end(),
-                     [](const auto& a, const auto& b) { return a.time < b.time; });
+    for (std::size_t i = 0; i < ranges.all.size(); ++i) ranges.all[i].sequence = static_cast<std::uint32_t>(i);
+    std::sort(ranges.all.begin(), ranges.all.end(), [](const Measurement& a, const Measurement& b) {
+        return std::pair(a.time, a.sequence) < std::pair(b.time, b.sequence);
+    });
     return ranges;
 }
 

@@ -18,7 +18,7 @@ namespace locus::federated_test {
 namespace {
 
 constexpr double foot_sigma_m = 0.15, fresh_range_m = 0.1;
-constexpr double uwb_s = 0.1, camera_s = 0.125, tag_m = 1.0;
+constexpr double tag_m = 1.0;
 
 struct Blind {
     double from_s = 1e9, to_s = 1e9;
@@ -136,7 +136,8 @@ void hand_over(const Blind& uwb, const Blind& camera, double back_s) {
         Federated estimator(site, {});
         person.walk(estimator, 0, 5, uwb, camera);
         double worst = 0;
-        for (double t = 5; t < back_s + 1.5; t += 0.025) {
+        for (int i = 200; 0.025 * i < back_s + 1.5; ++i) {
+            const double t = 0.025 * i;
             const Timestamp now = timestamp_from_s(t + 0.025);
             const Estimate before = estimator.predict(now);
             person.walk(estimator, t, t + 0.025, uwb, camera);
@@ -165,7 +166,7 @@ TEST(Federated, LongAfterABlindnessTheOtherSensorIsAllThereIs) {
     Person person(site, 5);
     Federated estimator(site, {}), alone(site, {});
     person.walk(estimator, 0, 5);
-    Person again(site, 6);
+    const Person again(site, 6);
     for (Federated* e : {&estimator, &alone}) {
         Person same = again;
         same.walk(*e, 5, 15, {}, {5, 20});
@@ -208,8 +209,10 @@ TEST(Federated, GoesWhereFootPointsStayWhenTheyAreAllThereIs) {
     Federated estimator(site, {});
     person.walk(estimator, 0, 3);
     int refused = 0;
-    for (double t = 3.125; t < 6; t += 0.125)
+    for (int i = 25; i < 48; ++i) {
+        const double t = 0.125 * i;
         refused += estimator.update({timestamp_from_s(t), 0, 0, person.foot(t, 6)}).reason != Exclusion::none;
+    }
     EXPECT_GE(refused, 3);
     EXPECT_LE(refused, 4) << "half a second";
     const Estimate estimate = estimator.predict(timestamp_from_s(6));
@@ -222,7 +225,8 @@ double sigma_when_off(double off_m) {
     const Site site = test::hall();
     Person person(site, 7);
     Federated estimator(site, {});
-    for (double t = 0.1; t < 5; t += 0.1) {
+    for (int sweep = 1; sweep < 50; ++sweep) {
+        const double t = 0.1 * sweep;
         estimator.update({timestamp_from_s(t), 0, 0, person.foot(t, off_m)});
         for (std::size_t i = 0; i < 8; ++i) estimator.update({timestamp_from_s(t), 0, 0, person.range(i, t)});
     }
