@@ -5,6 +5,7 @@
 #include "fusion/estimators/chan_taylor.h"
 #include "fusion/estimators/federated.h"
 #include "fusion/estimators/inertial_ekf.h"
+#include "tests/replay/pets_ranges.h"
 #include "tests/replay/pets_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,27 +1,23 @@
-// PETS 2009 S2.L1 as a scene with UWB: where the annotated people stand on the floor, ranges simulated for them, and
-// what a tracker makes of the public detections. The radio is that of tests/papers/walk.h, two-way ranges to four
-// anchors 3 m up, a metre outside the corners of where people walk, ten sweeps a second. A path that passes the lamp
-// post with its sign or the blue sign on the right (places read off the first image) is longer by 0.3 to 1.5 m, drawn
-// anew each time that it comes to be blocked. Tags are 1.0 m up, give or take 0.15 m from person to person. Where the
-// wearer's body counts as well, it makes the ranges to anchors behind him 0.3 m longer, as in paper_001_test.cpp.
+// PETS 2009 S2.L1 as a scene: where the annotated people stand on the floor, four anchors 3 m up, a metre outside the
+// corners of where they walk, what stands in the radio's way (places read off the first image: the lamp post with its
+// sign, and the blue sign on the right), and what a tracker makes of the public detections.
 #pragma once
 
 #include "config/camera_calibration.h"
 #include "fusion/vision/tracker.h"
-#include "tests/papers/posts.h"
+#include "tests/papers/walk.h"
 #include "tests/replay/pets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
 namespace locus::test {
 
-inline constexpr double pets_start_s = 1, sweep_s = 0.1, pets_tag_m = 1.0, pets_tag_sigma_m = 0.15;
+inline constexpr double pets_start_s = 1;
 inline double pets_time_s(std::size_t frame) { return pets_start_s + pets_frame_s * static_cast<double>(frame); }
 
 inline Eigen::Vector2d foot_of(const vision::BoxPx& box) {
@@ -105,64 +101,6 @@ inline std::optional<PetsScene> pets_scene() {
         if (const auto place_m = on_floor(scene.view, {px[0], px[1]}); place_m.has_value())
             scene.posts_m.push_back(place_m.value());
     return scene;
-}
-
-inline Address tag_of(std::uint32_t person) { return address(100 + person); }
-
-/// What a blocked path adds, drawn anew whenever it comes to be blocked.
-class Blockage {
-  public:
-    Blockage(const papers::Way& posts_m, unsigned seed) : blocked_(papers::posts(posts_m)), random_(seed) {}
-    double longer_m(const Eigen::Vector3d& tag_m, const Eigen::Vector3d& anchor_m, double time_s) {
-        double& held_m = held_m_[std::pair(anchor_m.x(), anchor_m.y())];
-        if (!(blocked_(tag_m, anchor_m, time_s) > 0)) return held_m = 0;
-        if (!(held_m > 0)) held_m = longer_(random_);
-        ++count;
-        return held_m;
-    }
-    int count = 0; ///< of ranges that were blocked
-
-  private:
-    papers::Blocked blocked_;
-    std::mt19937 random_;
-    std::uniform_real_distribution<double> longer_{0.3, 1.5};
-    std::map<std::pair<double, double>, double> held_m_;
-};
-
-struct PetsRanges {
-    std::vector<Measurement> all; ///< in the order of their times
-    int blocked = 0;
-};
-
-inline PetsRanges pets_ranges(const PetsScene& scene, unsigned seed, bool with_body) {
-    PetsRanges ranges;
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    for (const auto& [person, way] : scene.ways) {
-        papers::Radio radio(scene.site, {}, seed + 1000 * person);
-        Blockage blockage(scene.posts_m, seed + 1000 * person + 500);
-        const double tag_m = pets_tag_m + pets_tag_sigma_m * normal(random);
-        for (double t = std::ceil(way.first_s() / sweep_s) * sweep_s; t <= way.last_s(); t += sweep_s) {
-            const auto place_m = way.at(t);
-            if (!place_m.has_value()) continue;
-            const auto blocked = [&, &path = way](const auto& tag, const auto& anchor, double time_s) {
-                const Eigen::Vector2d to_anchor = (anchor - tag).template head<2>().normalized();
-                const bool behind = with_body && to_anchor.dot(path.heading(time_s)) < -0.5;
-                return blockage.longer_m(tag, anchor, time_s) + (behind ? papers::blocked_longer_m : 0);
-            };
-            const auto heard_m = radio.hear({place_m.value().x(), place_m.value().y(), tag_m}, t, blocked);
-            for (Measurement m : papers::ranges(scene.site, heard_m, t)) {
-                std::get<Range>(m.observation).tag = tag_of(person);
-                ranges.all.push_back(m);
-            }
-        }
-        ranges.blocked += blockage.count;
-    }
-    for (std::size_t i = 0; i < ranges.all.size(); ++i) ranges.all[i].sequence = static_cast<std::uint32_t>(i);
-    std::sort(ranges.all.begin(), ranges.all.end(), [](const Measurement& a, const Measurement& b) {
-        return std::pair(a.time, a.sequence) < std::pair(b.time, b.sequence);
-    });
-    return ranges;
 }
 
 /// What the tracker shows in one frame: its foot points, and whose box each track's is by the annotations.
