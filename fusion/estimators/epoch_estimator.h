@@ -51,8 +51,7 @@ class EpochEstimator final : public Estimator {
 
 template <class Filter>
 std::unique_ptr<Estimator> make_epoch_estimator(const Site& site, const void* settings) {
-    using Settings = typename Filter::Settings;
-    return std::make_unique<EpochEstimator<Filter>>(site, *static_cast<const Settings*>(settings));
+    return std::make_unique<EpochEstimator<Filter>>(site, *static_cast<const typename Filter::Settings*>(settings));
 }
 
 } // namespace locus

@@ -16,7 +16,7 @@ struct EpochEstimatorSettings : ReadingSettings {
 };
 
 template <class Settings>
-inline constexpr std::array epoch_only_options{
+inline constexpr std::array epoch_gathering_options{
     option<&Settings::anchor_error_sigma_m, Settings>(
         "anchor_error_sigma_m", "m", 0, 100,
         "Error of an anchor that stays while the pose hardly changes (antenna, body, multipath)."),
@@ -25,7 +25,10 @@ inline constexpr std::array epoch_only_options{
         "Time that one position is made from: long enough for the tag to hear all anchors once."),
     option<&Settings::speed_sigma_mps, Settings>(
         "speed_sigma_mps", "m/s", 0.001, 1000,
-        "Speed of the target: how far it goes within an epoch, and between a position and the next."),
+        "Speed of the target: how far it goes within an epoch, and between a position and the next.")};
+
+template <class Settings>
+inline constexpr std::array epoch_plane_options{
     option<&Settings::planar, Settings>("planar", "", -no_limit, no_limit,
                                         "Whether the height is known and only x and y are estimated."),
     option<&Settings::height_m, Settings>("height_m", "m", -1e5, 1e5, "Height of the tag when planar."),
@@ -33,6 +36,7 @@ inline constexpr std::array epoch_only_options{
 
 /// The rows of a table whose settings derive from EpochEstimatorSettings.
 template <class Settings>
-inline constexpr auto epoch_estimator_options = joined(reading_options<Settings>, epoch_only_options<Settings>);
+inline constexpr auto epoch_estimator_options =
+    joined(joined(reading_options<Settings>, epoch_gathering_options<Settings>), epoch_plane_options<Settings>);
 
 } // namespace locus

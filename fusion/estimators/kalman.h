@@ -38,16 +38,18 @@ struct PcaKalmanSettings : KalmanSettings {
     double straight = filter::PcaModel{}.straight;
 };
 
+template <class Settings>
 inline constexpr std::array pca_options{
-    option<&PcaKalmanSettings::window>("window", "", 5, filter::PcaWindow::most,
-                                       "Positions, at most, that the principal axis is made from."),
-    option<&PcaKalmanSettings::straight>(
+    option<&PcaKalmanSettings::window, Settings>("window", "", 5, filter::PcaWindow::most,
+                                                 "Positions, at most, that the principal axis is made from."),
+    option<&PcaKalmanSettings::straight, Settings>(
         "straight", "", 0.1, 1000,
         "Variance across the principal axis, over that of the positions, up to which they are one straight piece."),
 };
 
 inline constexpr auto all_pca_options =
-    joined(joined(epoch_estimator_options<PcaKalmanSettings>, velocity_options<PcaKalmanSettings>), pca_options);
+    joined(joined(epoch_estimator_options<PcaKalmanSettings>, velocity_options<PcaKalmanSettings>),
+           pca_options<PcaKalmanSettings>);
 
 filter::FixFilterModel fix_filter_model(const KalmanSettings& settings) noexcept;
 /// Each fix's variance in the shares that an anchor's noise and held error have of a range's.
@@ -75,15 +77,29 @@ class PcaKalman {
     using Settings = PcaKalmanSettings;
     static constexpr auto reach = EpochGatherer::Reach::epoch;
 
-    explicit PcaKalman(const Settings& settings) noexcept
-        : window_({settings.window, settings.straight}), filter_(fix_filter_model(settings)) {}
+    explicit PcaKalman(const Settings& settings) noexcept : PcaKalman(settings, fix_filter_model(settings)) {}
     /// Paper 000 eq. 18-21: the denoised position, its covariance times the degradation factor.
     void take(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& covariance_m2, Timestamp time) noexcept;
     void write(Timestamp time, Estimate& estimate) const noexcept { filter_.write(time, estimate); }
 
+  protected:
+    PcaKalman(const PcaKalmanSettings& settings, const filter::FixFilterModel& model) noexcept
+        : window_({settings.window, settings.straight}), filter_(model) {}
+
   private:
     filter::PcaWindow window_;
     filter::FixFilter filter_;
+};
+
+/// The paper's filter with the augmented one behind it: the local UWB filter of `federated`.
+struct CarriedPcaSettings : PcaKalmanSettings {
+    double anchor_error_time_s = ColouredKalmanSettings{}.anchor_error_time_s;
+};
+
+class CarriedPca : public PcaKalman {
+  public:
+    using Settings = CarriedPcaSettings;
+    explicit CarriedPca(const Settings& settings) noexcept;
 };
 
 inline constexpr EstimatorRow kalman_row{

@@ -1,5 +1,6 @@
 // The estimators that a configuration can name.
 #include "fusion/estimators/chan_taylor.h"
+#include "fusion/estimators/federated.h"
 #include "fusion/estimators/gnss_ins.h"
 #include "fusion/estimators/inertial_ekf.h"
 #include "fusion/estimators/kalman.h"
@@ -11,7 +12,7 @@
 
 namespace locus {
 namespace {
-constexpr std::array rows{inertial_ekf_row, gnss_ins_row, range_ekf_row,       walker_particles_row,
+constexpr std::array rows{inertial_ekf_row, gnss_ins_row, range_ekf_row,       federated_row, walker_particles_row,
                           chan_taylor_row,  kalman_row,   coloured_kalman_row, pca_kalman_row};
 }
 

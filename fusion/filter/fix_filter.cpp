@@ -62,6 +62,18 @@ void FixFilter::take(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& c
     }
 }
 
+FixFilter::Innovation FixFilter::innovation(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& covariance_m2,
+                                            Timestamp time) const noexcept {
+    FixFilter ahead = *this;
+    ahead.carried_m2_ = model_.carried_share * covariance_m2;
+    ahead.predict(std::max(0.0, to_s(time - time_)));
+    Eigen::Matrix<double, 3, 9> seen = Eigen::Matrix<double, 3, 9>::Zero();
+    seen.leftCols<3>().setIdentity();
+    seen.rightCols<3>().setIdentity();
+    return {position_m - seen * ahead.state_,
+            seen * ahead.covariance_ * seen.transpose() + (1 - model_.carried_share) * covariance_m2};
+}
+
 void FixFilter::write(Timestamp time, Estimate& estimate) const noexcept {
     FixFilter ahead = *this;
     ahead.predict(std::max(0.0, to_s(time - time_)));

@@ -24,6 +24,19 @@ class FixFilter {
     /// A position with its covariance in m^2; the first one starts the filter. `time` does not go back.
     void take(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& covariance_m2, Timestamp time) noexcept;
 
+    /// What a fix that is not taken yet differs by from what is expected at its time, and the covariance of that.
+    struct Innovation {
+        Eigen::Vector3d value_m;
+        Eigen::Matrix3d covariance_m2;
+    };
+    Innovation innovation(const Eigen::Vector3d& position_m, const Eigen::Matrix3d& covariance_m2,
+                          Timestamp time) const noexcept;
+
+    /// Forgets all: the next fix starts it anew.
+    void stop() noexcept { started_ = false; }
+    bool is_started() const noexcept { return started_; }
+    Timestamp last_fix() const noexcept { return time_; }
+
     /// Position, velocity and their covariance at `time`, at or after the last fix.
     void write(Timestamp time, Estimate& estimate) const noexcept;
 

@@ -5,11 +5,11 @@
 #include "fusion/estimators/chan_taylor.h"
 #include "fusion/estimators/kalman.h"
 #include "fusion/estimators/range_ekf.h"
+#include "tests/papers/posts.h"
 #include "tests/papers/score.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -93,20 +93,6 @@ TEST(Paper000, PcaKalmanUnderColouredNoise) {
     EXPECT_LE(change_percent(scores, pca), -31.8);
     EXPECT_LT(scores[pca].mse_m2(), scores[augmented].mse_m2());
     EXPECT_LT(scores[augmented].mse_m2(), scores[kalman].mse_m2());
-}
-
-/// Obstacles stand as posts along the way; a path to a station that crosses one is longer by what a blocked path is.
-Blocked posts(const Way& places) {
-    constexpr double radius_m = 0.25;
-    return [places](const Eigen::Vector3d& tag_m, const Eigen::Vector3d& anchor_m, double) {
-        double longer_m = 0;
-        for (const Eigen::Vector2d& place : places) {
-            const Eigen::Vector2d path = (anchor_m - tag_m).head<2>(), to_post = place - tag_m.head<2>();
-            const double share = std::clamp(to_post.dot(path) / path.squaredNorm(), 0.0, 1.0);
-            if ((to_post - share * path).norm() < radius_m) longer_m += blocked_longer_m;
-        }
-        return longer_m;
-    };
 }
 
 struct Scheme {
