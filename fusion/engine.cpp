@@ -119,7 +119,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
     vision::FootPoints feet;
     struct Seen {
         SeenAs as;
-        Timestamp time = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2);
+        Timestamp told = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2);
     };
     std::vector<Seen> seen;                                                          ///< by cameras, of all slots
     std::vector<Pose> poses;                                                         ///< of the slots in use
@@ -184,8 +184,7 @@ void Engine::Impl::give(const Measurement& foot, const AidBook::Record& record,
     const Delivery delivery{owner.target, SourceKind::camera, {point.camera, no_address}, 1};
     if (reason == Exclusion::none) reason = targets.timeline(slot).insert(foot, key_of(foot, delivery), record);
     if (reason != Exclusion::none) return judge(foot, record, reason);
-    if (foot.time > seen[slot].time)
-        seen[slot] = {{point.camera, point.track, static_cast<float>(owner.confidence)}, foot.time};
+    seen[slot] = {{point.camera, point.track, static_cast<float>(owner.confidence)}, now};
 }
 
 /// A range between two tags goes into the timeline with what the other one knew of itself when it came. It stays in the
@@ -227,7 +226,7 @@ void Engine::Impl::step_target(TargetTable::Slot slot, Timestamp tick) noexcept 
     if (!lags.empty()) foreseen = timeline.predict(tick);
     timeline.run(tick, horizon(), book);
     fill(poses[slot], timeline.predict(tick));
-    poses[slot].seen_as = tick - seen[slot].time <= seen_for ? seen[slot].as : SeenAs{};
+    poses[slot].seen_as = tick - seen[slot].told <= seen_for ? seen[slot].as : SeenAs{};
     if (!lags.empty()) look_back(slot, foreseen);
 }
 
