@@ -19,7 +19,7 @@ struct BoardShape {
 
 using BoardCorners = std::vector<Eigen::Vector2d>;
 
-/// Row by row, px from the corner of the upper left pixel; empty where the board is not seen whole.
+/// Row by row, px from the corner of the upper left pixel; empty where the board is not seen whole. Three channels.
 std::optional<BoardCorners> find_chessboard(const Picture& picture, const BoardShape& shape);
 
 } // namespace locus::camera

@@ -75,18 +75,20 @@ void refuse_few(const Boards& boards, const camera::BoardShape& shape) {
         shape.columns, shape.rows, boards.names.size(), boards.names.size() + boards.without.size(), least_boards));
 }
 
+constexpr const char* how_to_tilt =
+    "hold the board large in the image, at 20 to 45 degrees, to the left, to the right, "
+    "up and down";
+
 void refuse_vague(const camera::LensFit& fit) {
-    if (tilt_deg(fit) < least_tilt_deg)
-        throw CannotTell(fmt::format("the boards never tilt (at most {:.0f} degrees from each other), and then a near "
-                                     "board cannot be told from a long lens: hold it at 20 to 45 degrees, to the left, "
-                                     "to the right, up and down",
-                                     tilt_deg(fit)));
     for (std::size_t i = 0; i < 2; ++i)
         if (const auto& focal = fit.parameters[i]; !(focal.sigma < worst_focal_share * focal.value))
             throw CannotTell(
-                fmt::format("{} is known to +- {:.0f} px only, of {:.0f}: take more images, with the board "
-                            "large in them and tilted in all directions",
-                            focal.name, focal.sigma, focal.value));
+                fmt::format("{} is known to +- {:.0f} px only, of {:.0f}: the boards never tilt enough, and "
+                            "then a near board cannot be told from a long lens; {}",
+                            focal.name, focal.sigma, focal.value, how_to_tilt));
+    if (tilt_deg(fit) < least_tilt_deg)
+        throw CannotTell(fmt::format("the boards never tilt enough (at most {:.0f} degrees from each other): {}",
+                                     tilt_deg(fit), how_to_tilt));
 }
 
 std::vector<std::string> remarks_of(const Boards& boards, const camera::LensFit& fit) {
