@@ -111,7 +111,7 @@ Eigen::Vector2d reach_of(const Boards& boards) {
 
 std::vector<std::string> lines_of(const Boards& boards, const camera::LensFit& fit) {
     std::vector<std::string> lines{
-        fmt::format("{} boards in {} images, tilted up to {:.0f} degrees; reprojection error "
+        fmt::format("{} boards in {} images, up to {:.0f} degrees from each other; reprojection error "
                     "{:.3f} px",
                     boards.names.size(), boards.names.size() + boards.without.size(), tilt_deg(fit), fit.rms_px),
         ""};

@@ -104,7 +104,7 @@ std::vector<std::string> report_lines(const WalkFit& walk, const SeenFeet& seen)
             n.known_m.median, n.known_m.most, walk.extent_m.x(), walk.extent_m.y())};
     if (const auto* camera = std::get_if<vision::Camera>(&walk.fit.view))
         lines.push_back("the camera hangs at " + position_text(camera->position_site_m(), position_sigma_m(walk.fit)));
-    lines.push_back(fmt::format("a camera of the daemon gets it by delay_s: {:.3f} less than it was", walk.offset_s));
+    lines.push_back(fmt::format("add {:+.3f} s to the delay_s of a live camera's settings", -walk.offset_s));
     return lines;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t least_feet_of_track = 5;
 constexpr double median_test = 1.386; ///< of chi-square with two degrees of freedom
-constexpr double smallest_spread = 0.1, largest_spread = 5;
+/// Beyond these it is luck, or the wrong person.
+constexpr double smallest_spread = 0.3, largest_spread = 5;
 constexpr int most_rounds = 30;
 
 void scale(Matched& matched, double spread) {
