@@ -38,7 +38,7 @@ std::optional<vision::Lens> lens_for(const CameraWalkRequest& request, const Eig
 
 WalkSettings settings_for(const CameraWalkRequest& request, const SeenFeet& seen,
                           const std::vector<vision::survey::PathPoint>& path) {
-    WalkSettings settings{-request.search_s, request.search_s, request.pose_sigma_m, seen.image_px.prod()};
+    WalkSettings settings{-request.search_s, request.search_s, request.pose_sigma_m, seen.image_px};
     if (request.start_s || is_device(request.frames)) return settings;
     const double frames_s = seen.last_s - seen.first_s, poses_s = path.back().time_s - path.front().time_s;
     const double overlap_s = std::min(least_overlap_s, 0.5 * std::min(frames_s, poses_s));

@@ -38,6 +38,22 @@ void tell(WalkFit& out, const Walking& walking) {
     out.used = walking.used;
 }
 
+/// Of the images, as far as anybody was seen in them, that should show the person by poses and view.
+double seen_share(const Walking& walking, std::span<const SeenFoot> feet, const TaggedPath& path,
+                  const Eigen::Vector2d& image_px) {
+    std::vector<double> times_s;
+    for (const SeenFoot& foot : feet) times_s.push_back(foot.time_s);
+    std::ranges::sort(times_s);
+    times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
+    const auto shows = [&](double time_s) {
+        const auto there = path.at(time_s + walking.offset_s);
+        const auto pixel = there ? pixel_of_floor(walking.view, there->site_m) : std::nullopt;
+        return pixel && (pixel->array() > 0).all() && (pixel->array() < image_px.array()).all();
+    };
+    const auto expected = std::ranges::count_if(times_s, shows);
+    return expected > 0 ? static_cast<double>(walking.used.size()) / static_cast<double>(expected) : 0;
+}
+
 Eigen::Vector2d extent_of(const std::vector<TimedPair>& pairs) {
     std::vector<Eigen::Vector2d> places_m;
     for (const TimedPair& pair : pairs) places_m.push_back(pair.site_m);
@@ -73,7 +89,11 @@ WalkFit fit_walk(std::span<const SeenFoot> feet, const TaggedPath& path, const s
     out.matched = match(feet, path, best->offset_s, settings.pose_sigma_m).pairs.size();
     out.extent_m = extent_of(best->pairs);
     tell(out, *best);
+    out.seen_share = seen_share(*best, feet, path, settings.image_px);
     if (!is_wide_enough(out.extent_m, settings)) return refused(WalkTrouble::no_area);
+    if (out.seen_share < least_seen_share) return refused(WalkTrouble::nobody);
+    if (static_cast<double>(out.used.size()) < least_independent_feet * out.correlated_feet)
+        return refused(WalkTrouble::not_told);
     const bool is_good =
         out.fit.is_told && out.offset_sigma_s < worst_offset_sigma_s && is_seen_from_above(out.fit.view);
     return is_good ? out : refused(WalkTrouble::not_told);

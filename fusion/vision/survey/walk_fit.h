@@ -21,6 +21,11 @@ enum class WalkTrouble {
 
 /// A walk whose places spread less than so many times the poses' own error, in any direction, is a point or a line.
 inline constexpr double least_spread_sigmas = 3;
+/// A person whom the poses put into the image and who is seen in fewer of them is somebody else: with a view and an
+/// offset to choose, half a minute of anybody's walk fits some piece of the poses (docs/cameras.md).
+inline constexpr double least_seen_share = 0.4;
+/// Nine numbers are fitted; twice as many feet that err each by itself.
+inline constexpr double least_independent_feet = 20;
 /// At a walker's pace that is more than the poses' own error.
 inline constexpr double worst_offset_sigma_s = 0.25;
 
@@ -33,6 +38,7 @@ struct WalkFit {
     double correlated_feet = 1;     ///< so many feet, one after the other, count as one
     std::vector<std::size_t> used;  ///< feet that were taken as the tagged person's
     std::size_t matched = 0;        ///< feet at a time with a pose
+    double seen_share = 0;          ///< of the images in which the person should be seen: those in which he was
     Eigen::Vector2d extent_m{0, 0}; ///< standard deviations of the places used
 };
 

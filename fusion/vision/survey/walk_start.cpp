@@ -117,7 +117,7 @@ Matched match(std::span<const SeenFoot> feet, const TaggedPath& path, double off
     return out;
 }
 
-double stranger_cost(const WalkSettings& settings) { return 2 * std::log(settings.image_area_px2); }
+double stranger_cost(const WalkSettings& settings) { return 2 * std::log(settings.image_px.prod()); }
 
 double cost_of_view(const FloorView& view, const Matched& matched, std::size_t feet, const WalkSettings& settings) {
     const double most = stranger_cost(settings);

@@ -27,7 +27,7 @@ struct WalkSettings {
     double least_offset_s = -2; ///< what is added to the camera's time to have the poses'
     double most_offset_s = 2;
     double pose_sigma_m = 0.2; ///< of a pose, along each axis
-    double image_area_px2 = 640 * 480;
+    Eigen::Vector2d image_px{640, 480};
 };
 
 /// The pairs that feet are at an offset, with their indices; feet without a pose are left out.
