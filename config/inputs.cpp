@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::string_view wire_name(Wire wire) { return wire == Wire::can ? "CAN frames" : "a stream of bytes"; }
 
-/// Recordings and the socket carry the name as one word.
-void check_name(const YamlNode& item, const InputSettings& input, Problems& problems) {
-    if (input.name.empty()) return;
-    if (input.name.size() > 64 || !std::ranges::all_of(input.name, [](unsigned char c) { return c > ' '; }))
-        problems.add(item.find("name")->mark, "name must be one word of at most 64 letters");
-}
-
 void check_wire(const YamlNode& item, const InputSettings& input, Problems& problems) {
     if (!input.transport || !input.decoder || input.transport->carries(input.decoder->wire)) return;
     const Wire given = *input.transport->wire; // NOLINT(*-unchecked-optional-access): without one it carries every wire
@@ -75,6 +68,12 @@ void check_together(const YamlNode& item, const InputSettings& input, Problems& 
 
 } // namespace
 
+void check_one_word(const YamlNode& item, const std::string& name, Problems& problems) {
+    if (name.empty()) return;
+    if (name.size() > 64 || !std::ranges::all_of(name, [](unsigned char c) { return c > ' '; }))
+        problems.add(item.find("name")->mark, "name must be one word of at most 64 letters");
+}
+
 void read_input(const YamlNode& item, InputSettings& input, std::span<const BoundOptions> more, Problems& problems) {
     find_rows(item, input, problems);
     std::vector<BoundOptions> tables{{input_options, &input}};
@@ -84,7 +83,7 @@ void read_input(const YamlNode& item, InputSettings& input, std::span<const Boun
     const std::size_t problems_before = problems.size();
     read_map(item, {"input", possible_keys(input)}, tables, problems);
     if (problems.size() == problems_before) check_together(item, input, problems);
-    check_name(item, input, problems);
+    check_one_word(item, input.name, problems);
     check_wire(item, input, problems);
 }
 

@@ -12,7 +12,7 @@ namespace locus {
 namespace config {
 namespace {
 
-constexpr std::array<FlatSection, 8> flat{{
+constexpr std::array<FlatSection, 9> flat{{
     {"fusion", "The engine: how often, how late, how many.", fusion_options,
      [](Settings& settings) -> void* { return &settings.engine.fusion; }},
     {"clock_sync", "Clocks of anchors that tell raw times of arrival (docs/clock-sync.md).", clock_sync_options,
@@ -21,6 +21,8 @@ constexpr std::array<FlatSection, 8> flat{{
      [](Settings& settings) -> void* { return &settings.engine.anchor_health; }},
     {"gnss", "Raw observations of GNSS receivers (docs/gnss.md).", gnss_options,
      [](Settings& settings) -> void* { return &settings.engine.gnss; }},
+    {"vision", "Whose feet the cameras see (docs/cameras.md).", vision_options,
+     [](Settings& settings) -> void* { return &settings.engine.vision; }},
     {"publish", "The socket that clients read.", publish_options,
      [](Settings& settings) -> void* { return &settings.publish; }},
     {"nmea", "The pose of one target as NMEA 0183, for GNSS software (docs/nmea.md).", nmea_output_options,
@@ -30,9 +32,9 @@ constexpr std::array<FlatSection, 8> flat{{
      [](Settings& settings) -> void* { return &settings.realtime; }},
 }};
 
-constexpr std::array<std::string_view, 12> section_names{"site",       "targets",       "inputs", "fusion",
-                                                         "clock_sync", "anchor_health", "gnss",   "estimators",
-                                                         "publish",    "nmea",          "log",    "realtime"};
+constexpr std::array<std::string_view, 14> section_names{
+    "site", "targets",    "inputs",  "cameras", "fusion", "clock_sync", "anchor_health",
+    "gnss", "estimators", "publish", "vision",  "nmea",   "log",        "realtime"};
 
 /// An absent section reads like an empty one.
 const YamlNode& section(const YamlNode& root, std::string_view name) {
@@ -60,6 +62,14 @@ void check_nmea(const YamlNode& node, const Settings& settings, Problems& proble
         problems.add(target->mark, fmt::format("nmea.target {} is not the name of one of the targets", target->text));
 }
 
+/// A recording knows both by their names.
+void check_names(const YamlNode& cameras, const Settings& settings, Problems& problems) {
+    for (const CameraInputSettings& camera : settings.cameras)
+        if (!camera.name.empty() &&
+            std::ranges::find(settings.inputs, camera.name, &InputSettings::name) != settings.inputs.end())
+            problems.add(cameras.mark, fmt::format("{} is the name of both an input and a camera", camera.name));
+}
+
 void check_limits_between(const YamlNode& root, const Settings& settings, Problems& problems) {
     constexpr std::size_t longest_socket_path = 107; // sockaddr_un::sun_path less its terminating zero
     const auto& fusion = settings.engine.fusion;
@@ -68,6 +78,7 @@ void check_limits_between(const YamlNode& root, const Settings& settings, Proble
     for (const YamlNode& target : section(root, "targets").children)
         check_origin(target.find("estimator"), settings.engine.site, problems);
     check_nmea(section(root, "nmea"), settings, problems);
+    check_names(section(root, "cameras"), settings, problems);
     const Address master = settings.engine.clock_sync.master;
     if (master != no_address && settings.engine.site.find_anchor(master) == nullptr)
         problems.add(section(root, "clock_sync").find("master")->mark,
@@ -86,6 +97,8 @@ Settings read_sections(const YamlNode& root, Problems& problems) {
     read_site(section(root, "site"), settings.engine.site, problems);
     read_targets(section(root, "targets"), settings.engine.targets, problems);
     read_inputs(section(root, "inputs"), settings.inputs, problems);
+    read_cameras(section(root, "cameras"), settings.cameras, problems);
+    settings.engine.cameras = settings.cameras.size();
     read_estimators(section(root, "estimators"), settings.engine.estimators, problems);
     for (const auto& one : flat) {
         const BoundOptions table[]{{one.rows, one.settings(settings)}};

@@ -89,6 +89,15 @@ std::string modules(std::string_view kind, const auto& rows) {
     return text;
 }
 
+std::string cameras_page() {
+    const CameraInputSettings defaults;
+    return fmt::format(
+        "\n## cameras\n\nA list. Each item has the settings below, and beside them, in the same map, those "
+        "of its source, of its detector and of the tracker (docs/cameras.md):\n{}{}{}\n### tracker\n{}",
+        reference_table({camera_input_options, &defaults}), modules("source", camera::frame_source_table()),
+        modules("detector", camera::detector_table()), reference_table({vision::tracker_options, &defaults.tracker}));
+}
+
 std::string section_page(const FlatSection& section) {
     Settings defaults;
     return fmt::format("\n## {}\n\n{}\n{}", section.name, section.about,
@@ -102,6 +111,7 @@ std::string reference_page() {
     using namespace config;
     std::string page(introduction);
     page += list_sections() + modules("transport", transport_table()) + modules("decoder", decoder_table());
+    page += cameras_page();
     page += "\n## estimators\n\nOne map for each estimator whose settings are not the defaults.\n";
     page += modules("estimator", estimator_table());
     for (const auto& section : flat_sections()) page += section_page(section);

@@ -20,6 +20,12 @@ void read_input(const YamlNode& item, InputSettings& input, std::span<const Boun
 void read_inputs(const YamlNode& node, std::vector<InputSettings>& inputs, Problems& problems);
 std::string print_inputs(const std::vector<InputSettings>& inputs);
 
+void read_cameras(const YamlNode& node, std::vector<CameraInputSettings>& cameras, Problems& problems);
+std::string print_cameras(const std::vector<CameraInputSettings>& cameras);
+
+/// Recordings and the socket carry the name of an input or camera as one word.
+void check_one_word(const YamlNode& item, const std::string& name, Problems& problems);
+
 /// Makes an entry for every estimator there is, also those that the file does not name.
 void read_estimators(const YamlNode& node, std::vector<EstimatorSettings>& estimators, Problems& problems);
 std::string print_estimators(const std::vector<EstimatorSettings>& estimators);
@@ -37,5 +43,6 @@ inline constexpr std::size_t max_anchors = 1024;
 inline constexpr std::size_t max_walls = 4096;
 inline constexpr std::size_t max_listed_targets = 4096;
 inline constexpr std::size_t max_inputs = 64;
+inline constexpr std::size_t max_cameras = 16;
 
 } // namespace locus::config

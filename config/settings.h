@@ -1,7 +1,9 @@
 // Everything a configuration file says, checked. config/load.h makes it.
 #pragma once
 
+#include "config/camera_input.h"
 #include "config/nmea_settings.h"
+#include "config/row_option.h"
 #include "drivers/decoder.h"
 #include "drivers/transport/transport.h"
 #include "fusion/engine.h"
@@ -23,42 +25,12 @@ struct InputSettings {
     bool enabled = true;
 };
 
-namespace detail {
-template <class Row>
-std::string name_of(const Row* row) {
-    return row ? std::string(row->name) : "";
-}
-} // namespace detail
-
 /// The rows that stand in front of the transport's and the decoder's own.
 inline constexpr std::array input_options{
     required_option<&InputSettings::name>("name", "Name that people see and recordings carry, one word."),
-    OptionRow{"transport",
-              "",
-              -no_limit,
-              no_limit,
-              "Where it comes from: one of the transports below.",
-              {},
-              true,
-              [](const void* input) -> OptionValue {
-                  return detail::name_of(static_cast<const InputSettings*>(input)->transport);
-              },
-              [](void* input, const OptionValue& name) {
-                  static_cast<InputSettings*>(input)->transport = find_transport(std::get<std::string>(name));
-              }},
-    OptionRow{"decoder",
-              "",
-              -no_limit,
-              no_limit,
-              "What it speaks: one of the decoders below.",
-              {},
-              true,
-              [](const void* input) -> OptionValue {
-                  return detail::name_of(static_cast<const InputSettings*>(input)->decoder);
-              },
-              [](void* input, const OptionValue& name) {
-                  static_cast<InputSettings*>(input)->decoder = find_decoder(std::get<std::string>(name));
-              }},
+    row_option<&InputSettings::transport, find_transport>("transport",
+                                                          "Where it comes from: one of the transports below."),
+    row_option<&InputSettings::decoder, find_decoder>("decoder", "What it speaks: one of the decoders below."),
     option<&InputSettings::delay_s>("delay_s", "s", 0, 10, "Time from the sample to the wire, taken off every stamp."),
     option<&InputSettings::enabled>("enabled", "Whether the input is opened at all."),
 };
@@ -103,6 +75,7 @@ inline constexpr std::array realtime_options{
 struct Settings {
     EngineSettings engine;
     std::vector<InputSettings> inputs;
+    std::vector<CameraInputSettings> cameras; ///< engine.cameras is their number
     PublishSettings publish;
     NmeaOutputSettings nmea;
     LogSettings log;

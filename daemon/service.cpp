@@ -21,7 +21,7 @@ constexpr Duration ready_at_the_latest = std::chrono::seconds{5};
 std::string engine_text(const Settings& settings) {
     Settings only;
     only.engine = settings.engine;
-    return print_settings(only);
+    return fmt::format("{}# {} cameras", print_settings(only), settings.engine.cameras);
 }
 
 /// Empty when no target is to be told; that it is known and the site anchored was checked when the settings were read.
@@ -38,7 +38,8 @@ std::optional<NmeaPlan> nmea_plan(const Settings& settings) {
 
 Service::Service(Settings settings, std::string config, Listener listener, LogFile* recording)
     : settings_{std::move(settings)}, config_{std::move(config)}, started_{monotonic_now()}, recording_{recording},
-      inputs_{recording}, fusion_{plan(std::make_unique<Engine>(settings_.engine)), output_, ticked_},
+      inputs_{recording}, cameras_{recording},
+      fusion_{plan(std::make_unique<Engine>(settings_.engine)), output_, ticked_},
       publisher_{std::move(listener), output_, ticked_, post_, roster()} {
     publisher_thread_ = std::jthread{[this](const std::stop_token& stop) {
         name_this_thread("publisher");
@@ -55,6 +56,7 @@ Service::~Service() {
     fusion_thread_.request_stop();
     publisher_thread_.request_stop();
     inputs_.stop();
+    cameras_.stop();
     flush_recording();
 }
 
@@ -64,6 +66,7 @@ void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
     if (engine) ++generation_;
     const int priority = beside_fusion(settings_.realtime.priority);
     inputs_.apply(settings_.inputs, priority);
+    cameras_.apply(settings_.cameras, priority);
     schedule_thread(publisher_thread_.native_handle(), priority);
     auto next = plan(std::move(engine));
     lock();
@@ -76,7 +79,8 @@ void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
 std::unique_ptr<FusionPlan> Service::plan(std::unique_ptr<Engine> engine) const {
     auto plan = std::make_unique<FusionPlan>();
     plan->engine = std::move(engine);
-    plan->inputs = inputs_.planned();
+    inputs_.plan(plan->inputs, 0);
+    cameras_.plan(plan->inputs, inputs_.size());
     plan->generation = generation_;
     plan->rate_hz = settings_.engine.fusion.rate_hz;
     plan->spin = duration_from_s(settings_.realtime.spin_s);
@@ -93,8 +97,9 @@ std::unique_ptr<const Roster> Service::roster() const {
     roster.anchors = settings_.engine.site.anchors.size();
     roster.publish = settings_.publish;
     roster.nmea = nmea_plan(settings_);
-    roster.names = Names{settings_.engine};
-    roster.inputs = inputs_.entries();
+    roster.names = Names{settings_};
+    roster.inputs = entries(inputs_);
+    for (InputEntry& camera : entries(cameras_)) roster.inputs.push_back(std::move(camera));
     roster.memory_locked = memory_locked_;
     roster.started = started_;
     return std::make_unique<const Roster>(std::move(roster));
@@ -191,7 +196,7 @@ void Service::reload_and_log() {
 
 void Service::report() {
     const Timestamp now = monotonic_now();
-    if (!ready_ && (inputs_.all_tried() || now - started_ > ready_at_the_latest)) {
+    if (!ready_ && ((inputs_.all_tried() && cameras_.all_tried()) || now - started_ > ready_at_the_latest)) {
         ready_ = true;
         manager_.ready();
         spdlog::info("ready: {}", summary());
@@ -212,8 +217,8 @@ void Service::flush_recording() {
 }
 
 std::string Service::summary() const {
-    return fmt::format("{} of {} inputs open, {} targets have a position, {:g} Hz", inputs_.open(), inputs_.size(),
-                       fusion_.positions(), settings_.engine.fusion.rate_hz);
+    return fmt::format("{} of {} inputs open, {} targets have a position, {:g} Hz", inputs_.open() + cameras_.open(),
+                       inputs_.size() + cameras_.size(), fusion_.positions(), settings_.engine.fusion.rate_hz);
 }
 
 } // namespace locus

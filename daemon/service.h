@@ -3,6 +3,7 @@
 #pragma once
 
 #include "config/load.h"
+#include "daemon/camera/cameras.h"
 #include "daemon/fusion_loop.h"
 #include "daemon/inputs.h"
 #include "daemon/manager.h"
@@ -71,6 +72,7 @@ class Service {
     Wake ticked_;
     Post post_;
     InputSet inputs_;
+    CameraSet cameras_;
     FusionLoop fusion_;
     Publisher publisher_;
     std::jthread fusion_thread_;

@@ -48,6 +48,8 @@ enum class Exclusion : std::uint8_t {
     no_position_yet,
     not_given_out,
     site_without_origin,
+    unknown_camera,
+    nobody_known,
     count_
 };
 
@@ -95,6 +97,8 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"no_position_yet", "too few satellites for a first position, which the corrections for the air need"},
     {"not_given_out", "gnss.satellite_ranges is switched off and no fix could be made of it"},
     {"site_without_origin", "the site does not say where on the Earth it lies: set site.origin"},
+    {"unknown_camera", "it is none of the cameras in the settings"},
+    {"nobody_known", "nobody's tag is where these feet are, or it is not sure yet whose"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {

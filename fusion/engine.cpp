@@ -9,6 +9,8 @@
 #include "fusion/identity.h"
 #include "fusion/target_table.h"
 #include "fusion/uwb/clock_sync/synchroniser.h"
+#include "fusion/vision/foot_points.h"
+#include "fusion/vision/witnesses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,13 +66,20 @@ bool is_done_with(const Observation& observation) {
 
 } // namespace
 
-struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Output {
+/// For so long a target counts as seen by a camera.
+constexpr Duration seen_for = std::chrono::seconds{1};
+
+struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Output, vision::FootPoints::Output {
     explicit Impl(EngineSettings given)
         : settings(std::move(given)), window(duration_from_s(settings.fusion.window_s)), fresh(settings),
           targets(settings, fresh), book(settings.site),
           clocks(settings.site, settings.clock_sync, longest_wait(settings.fusion)),
           anchors(settings.site, settings.anchor_health, static_cast<std::size_t>(settings.fusion.max_targets)),
-          receivers(settings.site, settings.gnss, longest_wait(settings.fusion)) {
+          receivers(settings.site, settings.gnss, longest_wait(settings.fusion)),
+          witnesses(targets, settings.cameras > 0),
+          feet(settings.vision, settings.cameras, targets.room(), longest_wait(settings.fusion),
+               duration_from_s(settings.fusion.lost_after_s)),
+          seen(targets.room()) {
         const auto targets_at_most = static_cast<std::size_t>(settings.fusion.max_targets);
         poses.reserve(targets_at_most);
         const auto ticks = std::lround(settings.fusion.smooth_lag_s * settings.fusion.rate_hz);
@@ -91,6 +100,8 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
     void take(const Measurement& made, const AidBook::Record& record) noexcept override;
     void judge(const Measurement& measurement, const AidBook::Record& record, Exclusion reason) noexcept override;
     void tell(const Measurement& fix) noexcept override;
+    std::span<const vision::LocatedTag> locate(Timestamp time) noexcept override { return witnesses.locate(time); }
+    void give(const Measurement& foot, const AidBook::Record& record, const vision::FeetOwner& owner) noexcept override;
     void step_target(TargetTable::Slot slot, Timestamp tick) noexcept;
     void look_back(TargetTable::Slot slot, const Estimate& foreseen) noexcept;
 
@@ -104,6 +115,13 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
     std::vector<filter::FixedLag> lags; ///< of all slots; empty: nobody waits
     std::vector<Pose> smoothed;
     gnss::Receivers receivers;
+    vision::Witnesses witnesses;
+    vision::FootPoints feet;
+    struct Seen {
+        SeenAs as;
+        Timestamp time = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2);
+    };
+    std::vector<Seen> seen;                                                          ///< by cameras, of all slots
     std::vector<Pose> poses;                                                         ///< of the slots in use
     Timestamp now = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2); ///< newest arrival or tick
     Timestamp last_tick = Timestamp::min();
@@ -133,6 +151,8 @@ Verdict Engine::Impl::hand_over(const Measurement& measurement, const Delivery& 
     if (std::holds_alternative<Arrival>(measurement.observation)) return {clocks.hear(measurement, record)};
     if (std::holds_alternative<GnssRaw>(measurement.observation))
         return {receivers.hear(measurement, record, arrival, *this)};
+    if (std::holds_alternative<FootPoint>(measurement.observation))
+        return {feet.hear(measurement, record, arrival, *this)};
     if (const auto* words = std::get_if<GnssNavigation>(&measurement.observation))
         return receivers.hear(*words), Verdict{};
     if (const auto* fix = std::get_if<GnssFix>(&measurement.observation)) receivers.hear(*fix, measurement.time);
@@ -145,10 +165,27 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
     const bool is_peer = std::holds_alternative<PeerRange>(measurement.observation);
-    const Exclusion reason = targets.timeline(slot).insert(is_peer ? with_peer(measurement, delivery) : measurement,
-                                                           key_of(measurement, delivery), record);
-    if (reason == Exclusion::none) anchors.hear(slot, measurement);
+    const Measurement& told = is_peer ? with_peer(measurement, delivery) : measurement;
+    const SampleKey key = key_of(measurement, delivery);
+    const Exclusion reason = targets.timeline(slot).insert(told, key, record);
+    if (reason != Exclusion::none) return reason;
+    witnesses.hear(slot, told, key);
+    anchors.hear(slot, measurement);
     return reason;
+}
+
+/// The target's own estimator learns whose feet they are only here.
+void Engine::Impl::give(const Measurement& foot, const AidBook::Record& record,
+                        const vision::FeetOwner& owner) noexcept {
+    const auto& point = *std::get_if<FootPoint>(&foot.observation);
+    const auto slot = targets.slot_of(owner.target);
+    if (slot == TargetTable::none) return judge(foot, record, Exclusion::unknown_target);
+    Exclusion reason = foot.time < horizon() ? Exclusion::late : Exclusion::none;
+    const Delivery delivery{owner.target, SourceKind::camera, {point.camera, no_address}, 1};
+    if (reason == Exclusion::none) reason = targets.timeline(slot).insert(foot, key_of(foot, delivery), record);
+    if (reason != Exclusion::none) return judge(foot, record, reason);
+    if (foot.time > seen[slot].time)
+        seen[slot] = {{point.camera, point.track, static_cast<float>(owner.confidence)}, foot.time};
 }
 
 /// A range between two tags goes into the timeline with what the other one knew of itself when it came. It stays in the
@@ -190,6 +227,7 @@ void Engine::Impl::step_target(TargetTable::Slot slot, Timestamp tick) noexcept 
     if (!lags.empty()) foreseen = timeline.predict(tick);
     timeline.run(tick, horizon(), book);
     fill(poses[slot], timeline.predict(tick));
+    poses[slot].seen_as = tick - seen[slot].time <= seen_for ? seen[slot].as : SeenAs{};
     if (!lags.empty()) look_back(slot, foreseen);
 }
 
@@ -219,6 +257,8 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
     impl_->clocks.run(tick, *impl_);
     impl_->smoothed.clear();
     impl_->receivers.run(tick, *impl_);
+    impl_->witnesses.run(tick, impl_->horizon());
+    impl_->feet.run(tick, *impl_);
     for (std::size_t slot = 0; slot < impl_->targets.size(); ++slot)
         impl_->step_target(static_cast<TargetTable::Slot>(slot), tick);
     impl_->anchors.step(tick, impl_->poses, impl_->book);

@@ -10,6 +10,7 @@
 #include "fusion/site.h"
 #include "fusion/uwb/anchor_health_settings.h"
 #include "fusion/uwb/clock_sync/settings.h"
+#include "fusion/vision/settings.h"
 
 #include <array>
 #include <memory>
@@ -71,6 +72,8 @@ struct EngineSettings {
     ClockSyncSettings clock_sync;
     uwb::AnchorHealthSettings anchor_health;
     GnssSettings gnss;
+    VisionSettings vision;
+    std::size_t cameras = 0; ///< their addresses are 0, 1, ...
     Site site;
     std::vector<TargetSettings> targets;
     std::vector<EstimatorSettings> estimators; ///< only those whose settings differ from the defaults need be here

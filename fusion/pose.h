@@ -48,6 +48,13 @@ struct Estimate {
     Missing missing = Missing::measurements; ///< not `nothing`: the other fields mean nothing
 };
 
+/// The camera track that a target was last known by.
+struct SeenAs {
+    Address camera = no_address; ///< no_address: by none within the last second
+    std::uint32_t track = 0;
+    float confidence = 0; ///< 0..1 that it is this target; 0 of a target without a tag
+};
+
 struct Pose {
     Address target = no_address;
     std::uint16_t target_index = 0;
@@ -55,6 +62,7 @@ struct Pose {
     Timestamp published{};
     float horizontal_error_95_m = 0; ///< radius that holds the true point with 95 % probability
     float vertical_error_95_m = 0;
+    SeenAs seen_as;
     Estimate estimate;
 };
 

@@ -1,5 +1,7 @@
 #include "fusion/target_table.h"
 
+#include "fusion/vision/anonymous.h"
+
 #include <charconv>
 #include <stdexcept>
 
@@ -8,7 +10,7 @@ namespace {
 
 /// Enough that a roll-back runs over a seventh of the window more than it must, at most.
 constexpr std::size_t snapshots_per_target = 9;
-constexpr std::string_view longest_address = "0xffffffffffffffff";
+constexpr std::string_view longest_address = "0xffffffffffffffff", longest_name = "anonymous-65536-65536";
 
 TimelineLimits limits_of(const FusionSettings& fusion) {
     TimelineLimits limits;
@@ -24,7 +26,8 @@ TimelineLimits limits_of(const FusionSettings& fusion) {
 std::uint16_t row_number(const EstimatorRow* row) { return static_cast<std::uint16_t>(row - estimator_table().data()); }
 
 /// Within the capacity that the string has already.
-void write_hexadecimal(std::string& text, Address address) noexcept {
+void write_name(std::string& text, Address address) noexcept {
+    if (vision::is_anonymous(address)) return vision::write_anonymous_name(text, address);
     text = longest_address;
     const auto end = std::to_chars(text.data() + 2, text.data() + text.size(), number(address), 16).ptr;
     text.resize(static_cast<std::size_t>(end - text.data()));
@@ -33,7 +36,8 @@ void write_hexadecimal(std::string& text, Address address) noexcept {
 } // namespace
 
 TargetTable::TargetTable(const EngineSettings& settings, FreshEstimators& fresh)
-    : slots_(static_cast<std::size_t>(settings.fusion.max_targets)) {
+    : slots_(static_cast<std::size_t>(settings.fusion.max_targets)),
+      accepts_strangers_(settings.fusion.accept_unknown_targets) {
     const auto room = static_cast<std::size_t>(settings.fusion.max_targets);
     if (settings.targets.size() > room)
         throw std::invalid_argument("there are " + std::to_string(settings.targets.size()) +
@@ -47,8 +51,9 @@ TargetTable::TargetTable(const EngineSettings& settings, FreshEstimators& fresh)
         add(target, fresh.of(target.estimator.empty() ? settings.fusion.estimator : target.estimator), limits);
     }
     used_ = targets_.size();
-    const TargetSettings stranger{std::string(longest_address), no_address, {}};
-    while (settings.fusion.accept_unknown_targets && targets_.size() < room)
+    const bool anonymous = settings.cameras > 0 && settings.vision.anonymous;
+    const TargetSettings stranger{std::string(longest_name), no_address, {}};
+    while ((accepts_strangers_ || anonymous) && targets_.size() < room)
         add(stranger, fresh.of(settings.fusion.estimator), limits);
 }
 
@@ -59,7 +64,8 @@ void TargetTable::add(const TargetSettings& settings, const FreshEstimators::Ite
 
 TargetTable::Slot TargetTable::slot_of(Address tag) noexcept {
     const Slot slot = slots_.find(tag);
-    return slot == none && tag != no_address ? open(tag) : slot;
+    const bool may_open = tag != no_address && (accepts_strangers_ || vision::is_anonymous(tag));
+    return slot == none && may_open ? open(tag) : slot;
 }
 
 TargetTable::Slot TargetTable::open(Address tag) noexcept {
@@ -67,7 +73,7 @@ TargetTable::Slot TargetTable::open(Address tag) noexcept {
     const auto slot = static_cast<Slot>(used_++);
     slots_.put(tag, slot);
     targets_[slot].address = tag;
-    write_hexadecimal(targets_[slot].name, tag);
+    write_name(targets_[slot].name, tag);
     return slot;
 }
 

@@ -20,7 +20,7 @@ class TargetTable {
     /// Throws std::invalid_argument when the configured targets cannot be had.
     TargetTable(const EngineSettings& settings, FreshEstimators& fresh);
 
-    /// The slot of a tag, opened now if the tag is a stranger and may have one; else `none`.
+    /// The slot of a tag, opened now if the tag is a stranger, or a person without one, and may have one; else `none`.
     Slot slot_of(Address tag) noexcept;
 
     /// The slot of a tag that has one; else `none`.
@@ -28,6 +28,9 @@ class TargetTable {
 
     /// Slots in use: 0 .. size() - 1.
     std::size_t size() const noexcept { return used_; }
+    /// Slots in all.
+    std::size_t room() const noexcept { return targets_.size(); }
+    Address address(std::size_t slot) const noexcept { return targets_[slot].address; }
     Timeline& timeline(std::size_t slot) noexcept { return targets_[slot].timeline; }
     const Timeline& timeline(std::size_t slot) const noexcept { return targets_[slot].timeline; }
     std::string_view name(std::size_t slot) const noexcept { return targets_[slot].name; }
@@ -47,6 +50,7 @@ class TargetTable {
     Slot open(Address tag) noexcept;
 
     FlatIndex<Address> slots_;
+    bool accepts_strangers_;
     std::vector<Target> targets_; ///< strangers have slots only if they are to be followed
     std::size_t used_ = 0;
 };

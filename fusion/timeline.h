@@ -41,6 +41,9 @@ class Timeline {
     /// `fresh` is an estimator in its first state; it outlives the timeline.
     Timeline(const Estimator& fresh, const TimelineLimits& limits);
 
+    /// Another one as this was at first.
+    Timeline blank() const { return {fresh_, limits_}; }
+
     /// Keeps a measurement until its tick. Exclusion::none: kept; else duplicate or window_full, and nothing changed.
     /// It must not be older than the `horizon` of the last run().
     Exclusion insert(const Measurement& measurement, const SampleKey& key, const AidBook::Record& record) noexcept;

@@ -18,6 +18,7 @@ void add_targets(CLI::App& root, int& exit_code);
 void add_watch(CLI::App& root, int& exit_code);
 void add_wait(CLI::App& root, int& exit_code);
 void add_reload(CLI::App& root, int& exit_code);
+void add_view(CLI::App& root, int& exit_code);
 
 // Of files, without a daemon.
 void add_evaluate(CLI::App& root, int& exit_code);

@@ -10,6 +10,7 @@ constexpr auto commands = std::to_array<locus::AddCommand>({
     locus::add_status,
     locus::add_sources,
     locus::add_targets,
+    locus::add_view,
     locus::add_watch,
     locus::add_wait,
     locus::add_reload,

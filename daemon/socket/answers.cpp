@@ -211,10 +211,14 @@ std::string poll_lines(const Picture& picture, const Roster& roster) {
     std::size_t poses = 0;
     for (const auto& [address, view] : picture.targets()) {
         if (!is_publishable(view.pose)) continue;
-        lines += open_pose_line(view.pose, roster.names.target(address), view.reset_count()) + "}\n";
+        lines += open_pose_line(view.pose, roster.names, view.reset_count()) + "}\n";
         ++poses;
     }
     return lines + line({{"class", "POLL"}, {"poses", poses}});
+}
+
+std::string view_line(const std::string& camera, const std::string& jpeg_base64) {
+    return line({{"class", "VIEW"}, {"camera", camera}, {"jpeg_base64", jpeg_base64}});
 }
 
 std::string reload_line(bool ok, const std::vector<std::string>& problems) {

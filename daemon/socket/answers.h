@@ -25,6 +25,9 @@ std::string targets_line(const Picture& picture, const Roster& roster, Timestamp
 std::string status_line(const Picture& picture, const Roster& roster, std::size_t clients, Timestamp now);
 /// The newest POSE of every target, then POLL.
 std::string poll_lines(const Picture& picture, const Roster& roster);
+/// VIEW: bytes of a JPEG file in base64.
+std::string view_line(const std::string& camera, const std::string& jpeg_base64);
+
 std::string reload_line(bool ok, const std::vector<std::string>& problems);
 std::string error_line(std::string_view message);
 

@@ -12,12 +12,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<std::string_view, Verb>, 6> verbs{{{"?WATCH", Verb::watch},
+constexpr std::array<std::pair<std::string_view, Verb>, 7> verbs{{{"?WATCH", Verb::watch},
                                                                   {"?POLL", Verb::poll},
                                                                   {"?SOURCES", Verb::sources},
                                                                   {"?TARGETS", Verb::targets},
                                                                   {"?STATUS", Verb::status},
-                                                                  {"?RELOAD", Verb::reload}}};
+                                                                  {"?RELOAD", Verb::reload},
+                                                                  {"?VIEW", Verb::view}}};
 
 constexpr std::string_view white_space = " \t\r\n\f\v";
 constexpr std::size_t max_watched_targets = 1024;
@@ -75,7 +76,15 @@ ParsedCommand parse_watch(std::string_view text) {
     if (auto bad = read_flag(options, "smoothed", watch.smoothed)) return *bad;
     if (auto bad = read_rate(options, watch.rate_hz)) return *bad;
     if (auto bad = read_targets(options, watch.targets)) return *bad;
-    return Command{Verb::watch, std::move(watch)};
+    return Command{.verb = Verb::watch, .watch = std::move(watch)};
+}
+
+ParsedCommand parse_view(std::string_view text) {
+    const json options = json::parse(text, nullptr, false);
+    const auto camera = options.is_object() ? options.find("camera") : options.end();
+    if (camera == options.end() || !camera->is_string())
+        return BadCommand{"?VIEW: after '=' comes the name of a camera, as in ?VIEW={\"camera\":\"gate\"};"};
+    return Command{.verb = Verb::view, .camera = camera->get<std::string>()};
 }
 
 } // namespace
@@ -95,8 +104,9 @@ ParsedCommand parse_command(std::string_view text) {
     const auto* found = std::ranges::find(verbs, name, &std::pair<std::string_view, Verb>::first);
     if (found == verbs.end())
         return BadCommand{"unknown command " + quoted(name) +
-                          "; there are ?WATCH ?POLL ?SOURCES ?TARGETS ?STATUS ?RELOAD"};
-    if (equals == std::string_view::npos) return Command{found->second, {}};
+                          "; there are ?WATCH ?POLL ?SOURCES ?TARGETS ?STATUS ?RELOAD ?VIEW"};
+    if (found->second == Verb::view) return parse_view(equals == std::string_view::npos ? "" : text.substr(equals + 1));
+    if (equals == std::string_view::npos) return Command{.verb = found->second};
     if (found->second != Verb::watch) return BadCommand{std::string{name} + " takes no '='"};
     return parse_watch(text.substr(equals + 1));
 }

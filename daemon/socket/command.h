@@ -24,11 +24,12 @@ struct Watch {
     bool operator==(const Watch&) const = default;
 };
 
-enum class Verb { watch, poll, sources, targets, status, reload };
+enum class Verb { watch, poll, sources, targets, status, reload, view };
 
 struct Command {
     Verb verb = Verb::status;
-    std::optional<Watch> watch; ///< of ?WATCH={...}; empty: only asks what is in force
+    std::optional<Watch> watch{}; ///< of ?WATCH={...}; empty: only asks what is in force
+    std::string camera{};         ///< of ?VIEW={...}
 };
 
 struct BadCommand {

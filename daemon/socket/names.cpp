@@ -1,5 +1,7 @@
 #include "daemon/socket/names.h"
 
+#include "fusion/vision/anonymous.h"
+
 #include <fmt/format.h>
 
 namespace locus {
@@ -7,22 +9,29 @@ namespace {
 
 std::string name_or_address(const std::map<Address, std::string>& names, Address address) {
     const auto found = names.find(address);
-    return found == names.end() || found->second.empty() ? address_text(address) : found->second;
+    if (found != names.end() && !found->second.empty()) return found->second;
+    if (!vision::is_anonymous(address)) return address_text(address);
+    std::string text;
+    vision::write_anonymous_name(text, address);
+    return text;
 }
 
 } // namespace
 
 std::string address_text(Address address) { return fmt::format("{:#x}", number(address)); }
 
-Names::Names(const EngineSettings& settings) {
-    for (const auto& target : settings.targets) targets_.emplace(target.address, target.name);
-    for (const auto& anchor : settings.site.anchors) anchors_.emplace(anchor.address, anchor.name);
+Names::Names(const Settings& settings) {
+    for (const auto& target : settings.engine.targets) targets_.emplace(target.address, target.name);
+    for (const auto& anchor : settings.engine.site.anchors) anchors_.emplace(anchor.address, anchor.name);
+    for (std::size_t i = 0; i < settings.cameras.size(); ++i)
+        cameras_.emplace(static_cast<Address>(i), settings.cameras[i].name);
 }
 
 std::string Names::target(Address address) const { return name_or_address(targets_, address); }
 
 std::string Names::source(SourceKind kind, Address address) const {
-    return kind == SourceKind::anchor ? name_or_address(anchors_, address) : address_text(address);
+    if (kind == SourceKind::anchor) return name_or_address(anchors_, address);
+    return kind == SourceKind::camera ? name_or_address(cameras_, address) : address_text(address);
 }
 
 } // namespace locus

@@ -90,4 +90,17 @@ std::string open_pose_line(const Pose& pose, std::string_view target, std::uint3
     return out;
 }
 
+std::string open_pose_line(const Pose& pose, const Names& names, std::uint32_t reset_count,
+                           std::string_view class_name) {
+    std::string out = open_pose_line(pose, names.target(pose.target), reset_count, class_name);
+    const SeenAs& seen = pose.seen_as;
+    if (seen.camera == no_address) return out;
+    out += R"(,"seen_as":{"camera":)";
+    append_text(out, names.source(SourceKind::camera, seen.camera));
+    out += ",\"track\":" + std::to_string(seen.track) + ",\"confidence\":";
+    append_fixed(out, seen.confidence, 3);
+    out += '}';
+    return out;
+}
+
 } // namespace locus

@@ -51,6 +51,7 @@ void Publisher::run(const std::stop_token& stop) {
         for (int i = 0; i < ready; ++i)
             serve(events[static_cast<std::size_t>(i)].data.u64, events[static_cast<std::size_t>(i)].events);
         take_output();
+        serve_views();
         flush_all();
         if (nmea_) nmea_->run(monotonic_now());
         resume_accepting();
@@ -137,6 +138,8 @@ std::string Publisher::answer_to(Id id, Client& client, const Command& command) 
         return status_line(picture_, *roster_, clients_.size(), monotonic_now());
     case Verb::reload:
         return request_reload(id, client);
+    case Verb::view:
+        return request_view(id, client, command.camera);
     }
     return {};
 }
@@ -147,6 +150,20 @@ std::string Publisher::request_reload(Id id, const Client& client) {
     if (!post_.requests.push({id})) return error_line("too many reloads are under way; try again");
     post_.main.raise();
     return {};
+}
+
+/// The answer comes when the camera's next picture is there: empty. Pictures of people are not for everybody who may
+/// read poses.
+std::string Publisher::request_view(Id id, const Client& client, const std::string& camera) {
+    if (!client.may_change()) return error_line("?VIEW is for root and the daemon's own user; try sudo");
+    const std::string wrong = views_.ask(id, camera, picture_, *roster_, monotonic_now());
+    return wrong.empty() ? wrong : error_line(wrong);
+}
+
+void Publisher::serve_views() {
+    views_.serve(*roster_, monotonic_now(), [this](Id id, const std::string& line) {
+        if (const auto client = clients_.find(id); client != clients_.end()) client->second.queue.push_answer(line);
+    });
 }
 
 void Publisher::open_post() {
@@ -189,7 +206,8 @@ void Publisher::take_smoothed(const Pose& pose) {
         if (!client.watch.wants_smoothed(name)) continue;
         if (!is_due(previous, pose.estimate.time, client.watch.rate_hz)) continue;
         if (!line)
-            line = std::make_shared<const std::string>(open_pose_line(pose, name, view.reset_count(), "SMOOTHED"));
+            line = std::make_shared<const std::string>(
+                open_pose_line(pose, roster_->names, view.reset_count(), "SMOOTHED"));
         client.queue.push_pose(line);
     }
 }
@@ -204,7 +222,8 @@ void Publisher::take_pose(const PoseItem& item) {
     for (auto& [id, client] : clients_) {
         if (!client.watch.wants(name)) continue;
         if (!is_due(view.previous, view.pose.estimate.time, client.watch.rate_hz)) continue;
-        if (!line) line = std::make_shared<const std::string>(open_pose_line(view.pose, name, view.reset_count()));
+        if (!line)
+            line = std::make_shared<const std::string>(open_pose_line(view.pose, roster_->names, view.reset_count()));
         client.queue.push_pose(line);
     }
 }

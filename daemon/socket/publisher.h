@@ -10,6 +10,7 @@
 #include "daemon/socket/picture.h"
 #include "daemon/socket/post.h"
 #include "daemon/socket/reason_watch.h"
+#include "daemon/socket/views.h"
 
 #include <atomic>
 #include <map>
@@ -47,6 +48,8 @@ class Publisher {
     void answer(Id id, Client& client, const ParsedCommand& parsed);
     std::string answer_to(Id id, Client& client, const Command& command);
     std::string request_reload(Id id, const Client& client);
+    std::string request_view(Id id, const Client& client, const std::string& camera);
+    void serve_views();
     void flush(Clients::iterator client);
     void flush_all();
 
@@ -70,6 +73,7 @@ class Publisher {
     Picture picture_;
     ReasonWatch reasons_;
     InputRates input_rates_;
+    Views views_;
     RateLimit reason_lines_{20, std::chrono::seconds{1}};
     std::atomic<std::uint64_t> heartbeat_{0};
 };

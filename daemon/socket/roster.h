@@ -2,6 +2,7 @@
 #pragma once
 
 #include "config/settings.h"
+#include "daemon/camera/viewfinder.h"
 #include "daemon/nmea/output.h"
 #include "daemon/output.h"
 #include "daemon/socket/names.h"
@@ -18,6 +19,7 @@ struct InputEntry {
     std::string transport;
     std::string decoder;
     std::shared_ptr<const InputStatus> status; ///< null: disabled in the settings
+    std::shared_ptr<Viewfinder> view{};        ///< null: it is no camera, or disabled
 };
 
 struct Roster {

@@ -1,5 +1,6 @@
 #include "drivers/camera/camera.h"
 
+#include "drivers/clock.h"
 #include "drivers/stoppable_sleep.h"
 
 namespace locus::camera {
@@ -49,25 +50,33 @@ FrameStatus Camera::read_until_lost(const std::stop_token& stop) {
 void Camera::deliver() {
     back_off_.reset(); // not at open(): a camera that opens but gives nothing and falls away must not spin
     ++status_.frames;
-    status_.last_frame_ns.store(to_ns(frame_.captured), std::memory_order_relaxed);
+    ++status_.packets;
+    status_.last_packet_ns.store(to_ns(frame_.captured), std::memory_order_relaxed);
     if (parts_.on_frame) parts_.on_frame(frame_);
 }
 
 void Camera::copy_counters() {
-    status_.dropped.store(parts_.source->dropped(), std::memory_order_relaxed);
-    status_.damaged.store(parts_.source->damaged(), std::memory_order_relaxed);
+    status_.kernel_dropped.store(parts_.source->dropped(), std::memory_order_relaxed);
+    status_.refused[static_cast<std::size_t>(Refusal::malformed)].store(parts_.source->damaged(),
+                                                                        std::memory_order_relaxed);
     const std::string_view trouble = parts_.source->trouble();
     if (trouble == told_) return;
-    told_ = trouble;
-    status_.trouble.set(trouble);
+    note(trouble);
     tell(InputEvent::Kind::trouble, trouble);
+}
+
+void Camera::note(std::string_view text) {
+    told_ = text;
+    status_.trouble.set(text);
+    if (text.empty()) return;
+    status_.last_error.set(text);
+    status_.last_error_ns = to_ns(monotonic_now());
 }
 
 void Camera::fail(InputEvent::Kind kind, std::string_view text) {
     status_.state = InputState::waiting;
     if (text == told_) return;
-    told_ = text;
-    status_.trouble.set(text);
+    note(text);
     tell(kind, text);
 }
 

@@ -16,19 +16,6 @@
 
 namespace locus::camera {
 
-/// What any thread may read of a camera while its own thread runs.
-struct CameraStatus {
-    using Counter = std::atomic<std::uint64_t>;
-
-    std::atomic<InputState> state{InputState::starting};
-    Counter frames{0};
-    Counter dropped{0}; ///< taken by the camera, come to nobody: the driver or this thread was too slow
-    Counter damaged{0};
-    Counter reconnects{0};
-    std::atomic<std::int64_t> last_frame_ns{0}; ///< when the newest was captured, ns of CLOCK_MONOTONIC; 0: none yet
-    SharedText trouble;
-};
-
 struct CameraParts {
     std::unique_ptr<FrameSource> source{};
     std::function<void(const Frame&)> on_frame{};      ///< called in the camera's thread
@@ -41,18 +28,23 @@ class Camera {
 
     /// Reads until asked to stop (heard within about 0.1 s) or a recording ends. Call it once, in its own thread.
     void run(const std::stop_token& stop);
-    const CameraStatus& status() const { return status_; }
+    /// As that of any input: a packet is a frame that was taken; `kernel_dropped` are those that came to nobody,
+    /// because the driver or this thread was too slow; damaged ones are refused as malformed. `measurements` and
+    /// `ring_dropped` are for whoever makes measurements of the frames.
+    InputStatus& status() { return status_; }
+    const InputStatus& status() const { return status_; }
 
   private:
     bool open();
     FrameStatus read_until_lost(const std::stop_token& stop);
     void deliver();
     void copy_counters();
+    void note(std::string_view text);
     void fail(InputEvent::Kind kind, std::string_view text);
     void tell(InputEvent::Kind kind, std::string_view text) const;
 
     CameraParts parts_;
-    CameraStatus status_;
+    InputStatus status_;
     BackOff back_off_;
     Frame frame_;
     std::string told_; ///< the trouble that was told last

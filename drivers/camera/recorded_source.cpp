@@ -94,6 +94,10 @@ class RecordedSource : public FrameSource {
     FrameStatus next(Frame& frame, Duration timeout) override {
         if (settings_.speed > 0 && !wait_for_next(timeout)) return FrameStatus::nothing;
         if (!read()) return FrameStatus::ended;
+        while (settings_.speed > 0 && time_to(count_ + 1) < Duration{0} && read()) { // as of a camera: only the newest
+            ++count_;
+            ++dropped_;
+        }
         frame.captured = start_ + static_cast<std::int64_t>(count_) * interval_;
         frame.sequence = count_++;
         if (!copy(frame.picture)) {
@@ -103,6 +107,7 @@ class RecordedSource : public FrameSource {
         return FrameStatus::frame;
     }
 
+    std::uint64_t dropped() const override { return dropped_; }
     std::uint64_t damaged() const override { return damaged_; }
     std::string_view last_error() const override { return error_; }
 
@@ -120,10 +125,15 @@ class RecordedSource : public FrameSource {
         return true;
     }
 
+    /// Until that frame is due; negative: it was due before now.
+    Duration time_to(std::uint64_t frame) const {
+        const double due_s = to_s(static_cast<std::int64_t>(frame) * interval_) / settings_.speed;
+        return began_ + duration_from_s(due_s) - monotonic_now();
+    }
+
     /// False: not yet within this time.
     bool wait_for_next(Duration timeout) const {
-        const double due_s = to_s(static_cast<std::int64_t>(count_) * interval_) / settings_.speed;
-        const Duration left = began_ + duration_from_s(due_s) - monotonic_now();
+        const Duration left = time_to(count_);
         if (left > Duration{0}) std::this_thread::sleep_for(std::min(left, timeout));
         return left <= timeout;
     }
@@ -150,6 +160,7 @@ class RecordedSource : public FrameSource {
     Timestamp start_; ///< stamp of the first frame
     Timestamp began_; ///< when it was given
     std::uint64_t count_ = 0;
+    std::uint64_t dropped_ = 0;
     std::uint64_t damaged_ = 0;
     std::string error_;
 };

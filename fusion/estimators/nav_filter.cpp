@@ -27,7 +27,7 @@ struct Standstill {
     double sigma_mps;
     Duration period;
 };
-constexpr Standstill whole_body{0.05, std::chrono::milliseconds{100}}, foot{0.03, std::chrono::milliseconds{20}};
+constexpr Standstill whole_body{0.05, std::chrono::milliseconds{100}}, standing_foot{0.03, std::chrono::milliseconds{20}};
 constexpr double least_speed_mps = 0.01;
 
 double variance(float stated_sigma, double otherwise) {
@@ -40,10 +40,11 @@ double variance(float stated_sigma, double otherwise) {
 NavFilter::NavFilter(const Site& site, const InertialEkfSettings& settings)
     : RangeFilter(site, settings, NavTrack(nav_model(settings))), settings_(settings),
       height_robust_(settings.robust_scale), speed_robust_(settings.robust_scale),
-      standstill_robust_(settings.robust_scale) {}
+      standstill_robust_(settings.robust_scale), foot_robust_(settings.robust_scale) {}
 
 Verdict NavFilter::update(const Measurement& measurement) noexcept {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return take(*imu, measurement.time);
+    if (const auto* foot = std::get_if<FootPoint>(&measurement.observation)) return take(*foot, measurement.time);
     const auto* height = std::get_if<Height>(&measurement.observation);
     const auto* wheel = std::get_if<WheelSpeed>(&measurement.observation);
     if (height == nullptr && wheel == nullptr) return RangeFilter::update(measurement);
@@ -59,7 +60,7 @@ Verdict NavFilter::take(const ImuSample& sample, Timestamp time) noexcept {
     track_.sense(sample, time, has_position());
     const bool may = track_.is_inertial() || (settings_.foot_mounted && has_position());
     const bool stands = settings_.zero_velocity && may && track_.is_at_rest();
-    const Standstill& still = settings_.foot_mounted ? foot : whole_body;
+    const Standstill& still = settings_.foot_mounted ? standing_foot : whole_body;
     if (!stands || time - stood_ < still.period) return {};
     stood_ = time;
     stand(still.sigma_mps);

@@ -1,5 +1,5 @@
 // A navigation track aided by whatever comes: ranges and range differences as every range filter takes them, and beside
-// them inertial samples, heights and speeds.
+// them inertial samples, heights, speeds and the feet that a camera sees (nav_filter_feet.cpp).
 #pragma once
 
 #include "fusion/estimators/inertial_ekf_settings.h"
@@ -38,11 +38,18 @@ class NavFilter final : public RangeFilter<NavTrack> {
     void stand(double sigma_mps) noexcept;
     Verdict take(const Height& height) noexcept;
     Verdict take(const WheelSpeed& wheel) noexcept;
+    Verdict take(const FootPoint& foot, Timestamp time) noexcept;
+    void start_on_foot(const FootPoint& foot, Timestamp time) noexcept;
+    Verdict see_feet(const FootPoint& foot, const Eigen::Vector2d& axis, double variance_m2,
+                     filter::Gate& gate) noexcept;
+    void stand_on_floor() noexcept;
 
     InertialEkfSettings settings_;
     filter::Gate height_gate_, speed_gate_;
     std::array<filter::Gate, 3> standstill_gates_;
-    filter::RobustGain height_robust_, speed_robust_, standstill_robust_;
+    std::array<filter::Gate, 2> foot_gates_;
+    filter::Gate floor_gate_;
+    filter::RobustGain height_robust_, speed_robust_, standstill_robust_, foot_robust_;
     Timestamp stood_{};
 };
 

@@ -77,7 +77,7 @@ template <class Track>
 Verdict RangeFilter<Track>::start(Timestamp time) noexcept {
     const uwb::EpochKeeper::Answer answer = epoch_.solve(time, track_.antenna_site_m());
     if (answer.agrees) {
-        start_at(answer.fix, time);
+        start_at(vector(answer.fix.position_site_m), Eigen::Matrix3d(answer.fix.covariance_m2.data()), time);
         return {};
     }
     if (missing_ == Missing::nothing) return {Exclusion::waiting_for_start};
@@ -87,9 +87,10 @@ Verdict RangeFilter<Track>::start(Timestamp time) noexcept {
 }
 
 template <class Track>
-void RangeFilter<Track>::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
+void RangeFilter<Track>::start_at(const Eigen::Vector3d& position_site_m, const Eigen::Matrix3d& covariance_m2,
+                                  Timestamp time) noexcept {
     if (missing_ == Missing::nothing) ++reset_count_;
-    track_.start(vector(fix.position_site_m), Eigen::Matrix3d(fix.covariance_m2.data()));
+    track_.start(position_site_m, covariance_m2);
     time_ = used_time_ = time;
     gates_.begin_anew();
     missing_ = Missing::nothing;
@@ -116,7 +117,8 @@ template <class Track>
 void RangeFilter<Track>::start_again_if_lost(Timestamp time) noexcept {
     if (!gates_.most_in_doubt(time, settings_.lost_after_s)) return;
     const uwb::EpochKeeper::Answer answer = epoch_.solve(time, track_.antenna_site_m());
-    if (answer.agrees && answer.cost_of_other - answer.fix.cost > start_anew_cost_) start_at(answer.fix, time);
+    if (answer.agrees && answer.cost_of_other - answer.fix.cost > start_anew_cost_)
+        start_at(vector(answer.fix.position_site_m), Eigen::Matrix3d(answer.fix.covariance_m2.data()), time);
 }
 
 template <class Track>

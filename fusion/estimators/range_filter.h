@@ -51,6 +51,12 @@ class RangeFilter : public Estimator {
 
     /// To be told of every observation that was taken in.
     void note_use(const Observation& observation, Timestamp time) noexcept { used_.note(observation, time); }
+    /// And of those that tell where the target is.
+    void note_place(Timestamp time) noexcept { used_time_ = time; }
+
+    /// At rest at a place that something else than ranges found.
+    void start_at(const Eigen::Vector3d& position_site_m, const Eigen::Matrix3d& covariance_m2,
+                  Timestamp time) noexcept;
 
     Track track_;
 
@@ -58,7 +64,6 @@ class RangeFilter : public Estimator {
     Verdict take(const uwb::Sighting& sighting, const Measurement& measurement) noexcept;
     Verdict start(Timestamp time) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
-    void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
 
     const Site* site_;
     RangeEkfSettings settings_;

@@ -1,7 +1,5 @@
 #include "fusion/vision/identity.h"
 
-#include "fusion/vision/assignment.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -21,76 +19,125 @@ double distance2(const SeenPerson& person, const LocatedTag& tag, double usual_s
 
 } // namespace
 
+Identity::Identity(const IdentitySettings& settings, std::size_t max_tags)
+    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), tag_numbers_(max_tags_), tracks_(max_people),
+      evidence_(max_people * max_tags_), costs_(max_people, max_tags_), assigner_(max_people, max_tags_) {
+    tags_.reserve(max_tags_);
+    seen_.reserve(max_people);
+    named_.reserve(max_people);
+}
+
 std::span<const Named> Identity::update(Timestamp time, std::span<const SeenPerson> people,
-                                        std::span<const LocatedTag> tags) {
-    for (const SeenPerson& person : people)
-        for (const LocatedTag& tag : tags) weigh(time, person, tag);
+                                        std::span<const LocatedTag> tags) noexcept {
+    people = people.first(std::min(people.size(), max_people));
     forget(time);
-    assign_tags(people);
-    named_.clear();
+    seen_.clear();
     for (const SeenPerson& person : people) {
-        Named named{person.track, std::nullopt, 0};
-        if (const auto held = held_.find(person.track); held != held_.end())
-            named = {person.track, held->second, confidence(person.track, held->second)};
-        named_.push_back(named);
+        seen_.push_back(place_of(person.track, time));
+        for (const LocatedTag& tag : tags) weigh(time, person, seen_.back(), tag);
     }
+    assign_tags();
+    named_.clear();
+    for (const std::size_t track : seen_) named_.push_back(named(track));
     return named_;
+}
+
+/// Where there is no room, the place of whom nobody has seen for longest.
+std::size_t Identity::place_of(std::uint32_t track, Timestamp time) noexcept {
+    auto place = std::find_if(tracks_.begin(), tracks_.end(),
+                              [&](const Track& known) { return known.last != never && known.number == track; });
+    const bool is_new = place == tracks_.end();
+    if (is_new) place = std::ranges::min_element(tracks_, {}, &Track::last);
+    const auto number = static_cast<std::size_t>(place - tracks_.begin());
+    if (is_new) {
+        clear(number);
+        place->number = track;
+    }
+    place->last = time;
+    return number;
+}
+
+std::uint16_t Identity::number_of(Address tag) noexcept {
+    const auto known = tag_numbers_.find(tag);
+    if (known != nobody || tags_.size() == max_tags_) return known;
+    const auto number = static_cast<std::uint16_t>(tags_.size());
+    tags_.push_back(tag);
+    tag_numbers_.put(tag, number);
+    return number;
+}
+
+void Identity::clear(std::size_t track) noexcept {
+    tracks_[track] = {};
+    std::fill_n(&evidence(track, 0), max_tags_, Evidence{});
 }
 
 /// A running mean whose memory is the window; it begins as a plain mean. No single distance counts for more than twice
 /// the gate, so that one outlier parts nobody.
-void Identity::weigh(Timestamp time, const SeenPerson& person, const LocatedTag& tag) {
+void Identity::weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept {
     const double distance = std::min(distance2(person, tag, settings_.sigma_m), 2 * settings_.gate);
-    if (!std::isfinite(distance)) return;
-    const auto [place, is_new] = evidence_.try_emplace({person.track, tag.tag});
-    Evidence& evidence = place->second;
-    if (!is_new && time <= evidence.last) return;
-    const double dt_s = is_new ? 0 : std::min(to_s(time - evidence.last), settings_.window_s);
-    evidence.weighed_s += dt_s;
-    const double plain_share = is_new ? 1 : dt_s / (evidence.weighed_s + dt_s);
-    evidence.mean += std::max(plain_share, 1 - std::exp(-dt_s / settings_.window_s)) * (distance - evidence.mean);
-    evidence.last = time;
+    const std::uint16_t number = std::isfinite(distance) ? number_of(tag.tag) : nobody;
+    if (number == nobody) return;
+    Evidence& known = evidence(track, number);
+    const bool is_new = known.last == never;
+    if (!is_new && time <= known.last) return;
+    const double dt_s = is_new ? 0 : std::min(to_s(time - known.last), settings_.window_s);
+    known.weighed_s += dt_s;
+    const double plain_share = is_new ? 1 : dt_s / (known.weighed_s + dt_s);
+    known.mean += std::max(plain_share, 1 - std::exp(-dt_s / settings_.window_s)) * (distance - known.mean);
+    known.last = time;
 }
 
-void Identity::forget(Timestamp time) {
-    std::erase_if(evidence_, [&](const auto& entry) { return to_s(time - entry.second.last) > settings_.forget_s; });
-    std::erase_if(held_, [&](const auto& entry) { return !evidence_.contains(entry); });
-}
-
-/// Of people in the image with all tags that there is evidence of; a tag whose track is out of sight may go to another.
-void Identity::assign_tags(std::span<const SeenPerson> people) {
-    std::vector<Address> tags;
-    for (const auto& [pair, evidence] : evidence_) tags.push_back(pair.second);
-    std::sort(tags.begin(), tags.end());
-    tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-    Costs costs(people.size(), tags.size());
-    for (std::size_t i = 0; i < people.size(); ++i)
-        for (std::size_t j = 0; j < tags.size(); ++j) {
-            const auto held = held_.find(people[i].track);
-            const bool is_held = held != held_.end() && held->second == tags[j];
-            costs.at(i, j) = cost(people[i].track, tags[j]) - (is_held ? settings_.loyalty : 0);
-        }
-    for (const SeenPerson& person : people) held_.erase(person.track);
-    for (const auto& [i, j] : assign(costs, settings_.gate)) {
-        const Address tag = tags[j];
-        std::erase_if(held_, [&](const auto& entry) { return entry.second == tag; });
-        held_[people[i].track] = tag;
+/// A pair that was not seen together for long is strange again, and parts.
+void Identity::forget(Timestamp time) noexcept {
+    const auto is_stale = [&](Timestamp last) { return last != never && to_s(time - last) > settings_.forget_s; };
+    for (std::size_t track = 0; track < tracks_.size(); ++track) {
+        if (tracks_[track].last == never) continue;
+        if (is_stale(tracks_[track].last)) clear(track);
+        for (std::size_t tag = 0; tag < tags_.size(); ++tag)
+            if (is_stale(evidence(track, tag).last)) evidence(track, tag) = {};
+        Track& known = tracks_[track];
+        if (known.held != nobody && evidence(track, known.held).last == never) known.held = nobody;
     }
 }
 
-double Identity::cost(std::uint32_t track, Address tag) const {
-    const auto found = evidence_.find({track, tag});
-    const bool is_settled = found != evidence_.end() && found->second.weighed_s >= settings_.settle_s;
-    return is_settled ? found->second.mean : std::numeric_limits<double>::infinity();
+/// Of people in the image with all tags that there is evidence of; a tag whose track is out of sight may go to another.
+void Identity::assign_tags() noexcept {
+    costs_.reset(seen_.size(), tags_.size());
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+        for (std::size_t tag = 0; tag < tags_.size(); ++tag)
+            costs_.at(i, tag) = cost(seen_[i], tag) - (tracks_[seen_[i]].held == tag ? settings_.loyalty : 0);
+    for (const std::size_t track : seen_) tracks_[track].held = nobody;
+    for (const auto& [i, tag] : assigner_.assign(costs_, settings_.gate))
+        hold(seen_[i], static_cast<std::uint16_t>(tag));
 }
 
-double Identity::confidence(std::uint32_t track, Address tag) const {
-    const auto likelihood = [&](double distance) { return std::exp(-0.5 * distance); };
-    const double this_one = likelihood(cost(track, tag));
-    double all = likelihood(settings_.gate) + this_one;
-    for (const auto& [pair, evidence] : evidence_)
-        if ((pair.first == track) != (pair.second == tag)) all += likelihood(cost(pair.first, pair.second));
+void Identity::hold(std::size_t track, std::uint16_t tag) noexcept {
+    for (Track& other : tracks_)
+        if (other.held == tag) other.held = nobody;
+    tracks_[track].held = tag;
+}
+
+double Identity::cost(std::size_t track, std::size_t tag) const noexcept {
+    const Evidence& known = evidence(track, tag);
+    const bool is_settled = known.last != never && known.weighed_s >= settings_.settle_s;
+    return is_settled ? known.mean : std::numeric_limits<double>::infinity();
+}
+
+double Identity::confidence(std::size_t track, std::size_t tag) const noexcept {
+    const auto likelihood = [&](std::size_t one, std::size_t other) { return std::exp(-0.5 * cost(one, other)); };
+    const double this_one = likelihood(track, tag);
+    double all = std::exp(-0.5 * settings_.gate) + this_one;
+    for (std::size_t other = 0; other < tags_.size(); ++other)
+        if (other != tag) all += likelihood(track, other);
+    for (std::size_t other = 0; other < tracks_.size(); ++other)
+        if (other != track && tracks_[other].last != never) all += likelihood(other, tag);
     return this_one / all;
+}
+
+Named Identity::named(std::size_t track) const noexcept {
+    const Track& known = tracks_[track];
+    if (known.held == nobody) return {known.number, std::nullopt, 0};
+    return {known.number, tags_[known.held], confidence(track, known.held)};
 }
 
 } // namespace locus::vision

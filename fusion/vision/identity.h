@@ -3,17 +3,18 @@
 // (paper 000 eq. 27-28, with Mahalanobis distances and room for people without a tag and tags without a person).
 #pragma once
 
+#include "fusion/flat_index.h"
+#include "fusion/measurement.h"
 #include "fusion/option.h"
-#include "fusion/time.h"
+#include "fusion/vision/assignment.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace locus::vision {
@@ -27,18 +28,20 @@ struct IdentitySettings {
     double forget_s = 5;   ///< somewhat longer than a tracker keeps who is lost
 };
 
+template <class Settings>
 inline constexpr std::array identity_options{
-    option<&IdentitySettings::window_s>("window_s", "s", 0.01, 60, "Time constant over which distances are averaged."),
-    option<&IdentitySettings::gate>("gate", "", 1, 100,
-                                    "Largest mean squared Mahalanobis distance of a track and its tag."),
-    option<&IdentitySettings::loyalty>("loyalty", "", 0, 100,
-                                       "By how much another tag must be nearer to take over a track."),
-    option<&IdentitySettings::settle_s>("settle_s", "s", 0, 60,
-                                        "Time that both must have been seen before they are a pair."),
-    option<&IdentitySettings::sigma_m>("sigma_m", "m", 0.01, 100,
-                                       "Usual standard deviation between the two; wider ones prove less."),
-    option<&IdentitySettings::forget_s>("forget_s", "s", 0, 3600,
-                                        "When a track or tag not seen for so long is forgotten.")};
+    option<&IdentitySettings::window_s, Settings>("window_s", "s", 0.01, 60,
+                                                  "Time constant over which distances are averaged."),
+    option<&IdentitySettings::gate, Settings>("gate", "", 1, 100,
+                                              "Largest mean squared Mahalanobis distance of a track and its tag."),
+    option<&IdentitySettings::loyalty, Settings>("loyalty", "", 0, 100,
+                                                 "By how much another tag must be nearer to take over a track."),
+    option<&IdentitySettings::settle_s, Settings>("settle_s", "s", 0, 60,
+                                                  "Time that both must have been seen before they are a pair."),
+    option<&IdentitySettings::sigma_m, Settings>("sigma_m", "m", 0.01, 100,
+                                                 "Usual standard deviation between the two; wider ones prove less."),
+    option<&IdentitySettings::forget_s, Settings>("forget_s", "s", 0, 3600,
+                                                  "When a track or tag not seen for so long is forgotten.")};
 
 struct SeenPerson {
     std::uint32_t track = 0;
@@ -59,31 +62,58 @@ struct Named {
     double confidence = 0; ///< 0..1, of the tag against all others of the track, all other tracks of the tag, and none
 };
 
+inline constexpr std::size_t max_people = 64; ///< that are told apart at a time
+
 class Identity {
   public:
-    explicit Identity(const IdentitySettings& settings) : settings_(settings) {}
+    /// For so many tags in all; more are passed over. No allocation after this.
+    Identity(const IdentitySettings& settings, std::size_t max_tags);
 
-    /// One entry for each of `people`, in their order. A tag that is not located just now keeps its track. Times rise.
-    std::span<const Named> update(Timestamp time, std::span<const SeenPerson> people, std::span<const LocatedTag> tags);
+    /// One entry for each of `people`, in their order; beyond max_people nobody has a name. A tag that is not located
+    /// just now keeps its track. Times rise.
+    std::span<const Named> update(Timestamp time, std::span<const SeenPerson> people,
+                                  std::span<const LocatedTag> tags) noexcept;
 
   private:
+    static constexpr std::uint16_t nobody = FlatIndex<Address>::none;
+
     struct Evidence {
         double mean = 0; ///< of the squared distance, gate and doubt included
         double weighed_s = 0;
-        Timestamp last{};
+        Timestamp last = never;
     };
-    using Pair = std::pair<std::uint32_t, Address>;
+    struct Track {
+        std::uint32_t number = 0;
+        Timestamp last = never;      ///< when he was seen; never: the place is free
+        std::uint16_t held = nobody; ///< his tag
+    };
+    static constexpr Timestamp never = Timestamp::min();
+
+    std::size_t place_of(std::uint32_t track, Timestamp time) noexcept;
+    std::uint16_t number_of(Address tag) noexcept;
+    Evidence& evidence(std::size_t track, std::size_t tag) noexcept { return evidence_[track * max_tags_ + tag]; }
+    const Evidence& evidence(std::size_t track, std::size_t tag) const noexcept {
+        return evidence_[track * max_tags_ + tag];
+    }
+    void clear(std::size_t track) noexcept;
+    void weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept;
+    void forget(Timestamp time) noexcept;
+    void assign_tags() noexcept;
+    void hold(std::size_t track, std::uint16_t tag) noexcept;
+    double cost(std::size_t track, std::size_t tag) const noexcept;
+    double confidence(std::size_t track, std::size_t tag) const noexcept;
+    Named named(std::size_t track) const noexcept;
 
     IdentitySettings settings_;
-    std::map<Pair, Evidence> evidence_;
-    std::map<std::uint32_t, Address> held_; ///< the tag of each track
+    std::size_t max_tags_;
+    FlatIndex<Address> tag_numbers_;
+    std::vector<Address> tags_;      ///< by number
+    std::vector<Track> tracks_;      ///< max_people places
+    std::vector<Evidence> evidence_; ///< a row for each track
+    std::vector<std::size_t> seen_;  ///< places of the people of this image
     std::vector<Named> named_;
-
-    void weigh(Timestamp time, const SeenPerson& person, const LocatedTag& tag);
-    void forget(Timestamp time);
-    void assign_tags(std::span<const SeenPerson> people);
-    double cost(std::uint32_t track, Address tag) const;
-    double confidence(std::uint32_t track, Address tag) const;
+    Costs costs_;
+    Assigner assigner_;
 };
 
 } // namespace locus::vision

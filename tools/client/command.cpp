@@ -33,7 +33,7 @@ CLI::App& add_client_command(CLI::App& root, int& exit_code, const CommandText& 
         ->envname("LOCUS_SOCKET")
         ->type_name("PATH")
         ->capture_default_str();
-    app.add_flag("--json", options->json, text.json_about);
+    if (!text.json_about.empty()) app.add_flag("--json", options->json, text.json_about);
     app.footer(text.footer);
     app.callback([options, command = std::move(command), &exit_code] { exit_code = run(*options, command); });
     return app;

@@ -1,5 +1,6 @@
 // Raw recordings: each line goes to the decoder of the input it came from, as in drivers/input.h but without a device.
 #include "drivers/recording/log_line.h"
+#include "drivers/recording/measurement_json.h"
 #include "tools/replay/recording.h"
 
 namespace locus::replay {
@@ -38,6 +39,26 @@ class RawInput final : public MeasurementSink {
     std::uint32_t sequence_ = 0;
 };
 
+/// A camera's foot points, which its thread wrote down one a line.
+class RawCamera {
+  public:
+    RawCamera(std::uint16_t index, const Take& take) : index_(index), take_(take) {}
+
+    void feed(const Packet& packet, std::string& error) {
+        std::string_view text(reinterpret_cast<const char*>(packet.data.data()), // NOLINT(*-reinterpret-cast): text
+                              packet.data.size());
+        if (text.ends_with('\n')) text.remove_suffix(1);
+        auto measurement = from_json_line(text, error);
+        if (!measurement.has_value()) return;
+        measurement.value().input = index_;
+        take_(measurement.value(), packet.time);
+    }
+
+  private:
+    std::uint16_t index_;
+    const Take& take_;
+};
+
 class RawReader final : public LineReader {
   public:
     RawReader(const Settings& settings, Take take, ReadReport& report) : take_(std::move(take)), report_(report) {
@@ -45,11 +66,16 @@ class RawReader final : public LineReader {
             const InputSettings& input = settings.inputs[i];
             if (input.enabled) inputs_.try_emplace(input.name, input, static_cast<std::uint16_t>(i), take_, report_);
         }
+        for (std::size_t i = 0; i < settings.cameras.size(); ++i)
+            cameras_.try_emplace(settings.cameras[i].name, static_cast<std::uint16_t>(settings.inputs.size() + i),
+                                 take_);
     }
 
     void read(std::string_view line, std::string& error) override {
         const auto record = from_log_line(line, error);
         if (!record) return;
+        if (const auto camera = cameras_.find(record->input); camera != cameras_.end())
+            return camera->second.feed(record->packet(), error);
         const auto input = inputs_.find(record->input);
         if (input == inputs_.end())
             ++report_.lines_of_unknown_inputs[record->input];
@@ -61,6 +87,7 @@ class RawReader final : public LineReader {
     Take take_;
     ReadReport& report_;
     std::map<std::string, RawInput> inputs_;
+    std::map<std::string, RawCamera> cameras_;
 };
 
 } // namespace

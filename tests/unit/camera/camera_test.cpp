@@ -52,8 +52,8 @@ TEST(CameraThread, OpensAgainAfterEveryLoss) {
     EXPECT_EQ(stamps_ns, (std::vector<std::int64_t>{1, 4}));
     EXPECT_EQ(camera.status().frames, 2);
     EXPECT_EQ(camera.status().reconnects, 1);
-    EXPECT_EQ(camera.status().dropped, 3);
-    EXPECT_EQ(camera.status().last_frame_ns, 4);
+    EXPECT_EQ(camera.status().kernel_dropped, 3);
+    EXPECT_EQ(camera.status().last_packet_ns, 4);
     EXPECT_EQ(camera.status().state, InputState::ended);
 }
 

@@ -85,6 +85,20 @@ InputSettings any_input(std::size_t index) {
     return input;
 }
 
+CameraInputSettings any_camera(std::size_t index) {
+    CameraInputSettings camera;
+    fill(camera_input_options, &camera);
+    camera.name = any_name(100 + index); // inputs have the others
+    const auto sources = camera::frame_source_table();
+    camera.source = &sources[*rc::gen::inRange<std::size_t>(0, sources.size())];
+    const auto detectors = camera::detector_table();
+    camera.detector = &detectors[*rc::gen::inRange<std::size_t>(0, detectors.size())];
+    camera.source_settings = any_settings_of(camera.source->options);
+    camera.detector_settings = any_settings_of(camera.detector->options);
+    fill(vision::tracker_options, &camera.tracker);
+    return camera;
+}
+
 Settings any_settings() {
     Settings settings;
     Site& site = settings.engine.site;
@@ -105,6 +119,8 @@ Settings any_settings() {
     const bool tells_nmea = site.origin && !settings.engine.targets.empty();
     settings.nmea.target = tells_nmea ? settings.engine.targets.front().name : "";
     for (const auto i : up_to(4)) settings.inputs.push_back(any_input(i));
+    for (const auto i : up_to(3)) settings.cameras.push_back(any_camera(i));
+    settings.engine.cameras = settings.cameras.size();
     for (const auto& row : estimator_table()) {
         const auto own = row.options.make();
         fill(row.options.rows, own.get());

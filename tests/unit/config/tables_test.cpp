@@ -37,11 +37,15 @@ void for_each_row(const Visit& visit) {
     plain("origin", origin_options, Wgs84Anchor{});
     plain("target", target_options, TargetSettings{});
     plain("input", input_options, InputSettings{});
+    plain("camera", camera_input_options, CameraInputSettings{});
+    plain("tracker", vision::tracker_options, vision::TrackerSettings{});
     Settings settings;
     for (const auto& section : config::flat_sections())
         for (const auto& row : section.rows) visit(section.name, row, section.settings(settings));
     for_each_module(transport_table(), visit);
     for_each_module(decoder_table(), visit);
+    for_each_module(camera::frame_source_table(), visit);
+    for_each_module(camera::detector_table(), visit);
     for_each_module(estimator_table(), visit);
 }
 
@@ -94,6 +98,18 @@ TEST(Tables, NamesOfModulesAreTheirOwn) {
     unique(transport_table());
     unique(decoder_table());
     unique(estimator_table());
+}
+
+TEST(Tables, OfOneCameraShareNoKey) {
+    for (const auto& source : camera::frame_source_table())
+        for (const auto& detector : camera::detector_table()) {
+            std::set<std::string_view> keys;
+            for (const Options rows : {Options(camera_input_options), source.options.rows, detector.options.rows,
+                                       Options(vision::tracker_options)})
+                for (const auto& row : rows)
+                    EXPECT_TRUE(keys.insert(row.name).second)
+                        << source.name << ", " << detector.name << ": " << row.name;
+        }
 }
 
 } // namespace

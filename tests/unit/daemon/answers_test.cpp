@@ -1,6 +1,7 @@
 #include "daemon/socket/answers.h"
 
 #include "daemon/socket/pose_line.h"
+#include "fusion/vision/anonymous.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -34,11 +35,13 @@ Pose some_pose(std::uint64_t target = 7) {
 }
 
 Roster some_roster() {
-    EngineSettings engine;
+    Settings settings;
+    EngineSettings& engine = settings.engine;
     engine.site.anchors.push_back({.name = "door", .address = address(3), .position_site_m = {}});
     engine.targets.push_back({.name = "forklift", .address = address(7), .estimator = {}});
+    settings.cameras.emplace_back().name = "gate";
     Roster roster;
-    roster.names = Names{engine};
+    roster.names = Names{settings};
     roster.anchors = 1;
     roster.site = "hall";
     return roster;
@@ -57,6 +60,18 @@ TEST(PoseLine, SaysWhatTheProtocolPageSays) {
     EXPECT_DOUBLE_EQ(line["horizontal_error_95_m"], 0.25);
     EXPECT_FALSE(line.contains("orientation_xyzw")) << "not known";
     EXPECT_NE(open_pose_line(some_pose(), "x", 0).find("\"published\":12.000000345,"), std::string::npos);
+}
+
+TEST(PoseLine, SaysByWhichCameraItIsSeen) {
+    const Roster roster = some_roster();
+    Pose pose = some_pose();
+    EXPECT_FALSE(closed(open_pose_line(pose, roster.names, 0)).contains("seen_as"));
+    pose.seen_as = {address(0), 12, 0.875F};
+    const json line = closed(open_pose_line(pose, roster.names, 0));
+    EXPECT_EQ(line["target"], "forklift");
+    EXPECT_EQ(line["seen_as"], (json{{"camera", "gate"}, {"track", 12}, {"confidence", 0.875}}));
+    pose.target = vision::anonymous_address(address(0), 1);
+    EXPECT_EQ(closed(open_pose_line(pose, roster.names, 0))["target"], "anonymous-1-2");
 }
 
 TEST(PoseLine, WithoutAFinitePositionNothingLeaves) {

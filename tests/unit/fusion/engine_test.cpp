@@ -238,7 +238,7 @@ TEST(Engine, KindsThatNameNoTagAreRefusedButSeen) {
     FootPoint foot;
     foot.camera = address(77);
     engine.submit({at(10), 0, 0, foot}, at(10));
-    EXPECT_EQ(source(engine, 77, SourceKind::camera).last_verdict.reason, Exclusion::unsupported_kind);
+    EXPECT_EQ(source(engine, 77, SourceKind::camera).last_verdict.reason, Exclusion::unknown_camera);
     EXPECT_EQ(source(engine, 77, SourceKind::camera).counters.refused, 1u);
 }
 

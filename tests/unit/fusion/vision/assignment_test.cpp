@@ -1,12 +1,14 @@
-// Assignment: against every permutation, rectangular, and with pairs that may not be.
+// Assignment: against every permutation, against dlib, rectangular, and with pairs that may not be.
 #include "fusion/vision/assignment.h"
 
+#include <dlib/optimization/max_cost_assignment.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
+#include <random>
 
 namespace locus::vision {
 namespace {
@@ -48,6 +50,27 @@ RC_GTEST_PROP(Assignment, IsTheBestOfAll, ()) {
     RC_ASSERT(std::abs(total_gain(costs, pairs) - best_gain(costs, 0, taken)) < 1e-3);
 }
 
+/// Fifty by fifty is more than every permutation can tell; dlib assigns all, so no pair is forbidden here.
+TEST(Assignment, IsThatOfDlib) {
+    constexpr long side = 50;
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> cost(0, 999);
+    Assigner assigner(side, side);
+    for (int trial = 0; trial < 20; ++trial) {
+        Costs costs(side, side);
+        dlib::matrix<int> gains(side, side);
+        for (long i = 0; i < side; ++i)
+            for (long j = 0; j < side; ++j) {
+                const int one = cost(random);
+                costs.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = one;
+                gains(i, j) = -one;
+            }
+        double total = 0;
+        for (const auto& [row, column] : assigner.assign(costs, 1e5)) total += costs.at(row, column);
+        EXPECT_EQ(total, -dlib::assignment_cost(gains, dlib::max_cost_assignment(gains))) << trial;
+    }
+}
+
 TEST(Assignment, NobodyIsForced) {
     Costs costs(2, 3);
     EXPECT_TRUE(assign(costs, 1).empty()) << "all forbidden";
@@ -56,6 +79,8 @@ TEST(Assignment, NobodyIsForced) {
     EXPECT_EQ(assign(costs, 1), (Pairing{{1, 2}}));
     costs.at(1, 2) = 1;
     EXPECT_TRUE(assign(costs, 1).empty()) << "to stay alone is as good";
+    costs.at(1, 2) = -std::numeric_limits<double>::infinity();
+    EXPECT_EQ(assign(costs, 1), (Pairing{{1, 2}})) << "counts as -limit";
     EXPECT_TRUE(assign(Costs(0, 5), 1).empty());
     EXPECT_TRUE(assign(Costs(5, 0), 1).empty());
 }

@@ -144,7 +144,7 @@ IdentityTally walked(double swap_share) {
     IdentityTally tally;
     for (unsigned seed = 101; seed <= 120; ++seed) {
         Hall hall(seed, swap_share);
-        Identity identity(IdentitySettings{});
+        Identity identity(IdentitySettings{}, 16);
         for (int i = 0; i < 1200; ++i) {
             hall.step();
             const auto people = hall.people();
@@ -190,7 +190,7 @@ LocatedTag tag_at(std::uint64_t number, double x_m, double variance_m2 = 0.04) {
 }
 
 TEST(Identity, NeedsMoreThanOneImage) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, 0)};
     const std::vector<LocatedTag> tags{tag_at(7, 0)};
     for (int i = 0; i <= 5; ++i) {
@@ -200,7 +200,7 @@ TEST(Identity, NeedsMoreThanOneImage) {
 }
 
 TEST(Identity, PeopleWithoutTagsAndTagsWithoutPeople) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, 0), seen_at(2, 5)};
     const std::vector<LocatedTag> tags{tag_at(7, 0.1), tag_at(8, 9), tag_at(9, -4)};
     std::span<const Named> named;
@@ -213,7 +213,7 @@ TEST(Identity, PeopleWithoutTagsAndTagsWithoutPeople) {
 }
 
 TEST(Identity, ASilentTagKeepsItsTrackUntilItIsForgotten) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, 0)};
     const std::vector<LocatedTag> tags{tag_at(7, 0)};
     for (int i = 0; i < 20; ++i) identity.update(timestamp_from_s(1 + i * naming_step_s), people, tags);
@@ -222,7 +222,7 @@ TEST(Identity, ASilentTagKeepsItsTrackUntilItIsForgotten) {
 }
 
 TEST(Identity, ATagThatIsAnywhereProvesNothing) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, 0)};
     const std::vector<LocatedTag> tags{tag_at(7, 0.5, 400)}; // 20 m
     std::span<const Named> named;
@@ -231,7 +231,7 @@ TEST(Identity, ATagThatIsAnywhereProvesNothing) {
 }
 
 TEST(Identity, TheSameImageTwiceIsSeenOnce) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, 0)};
     const std::vector<LocatedTag> tags{tag_at(7, 0), tag_at(7, 0)};
     for (int i = 0; i < 20; ++i) EXPECT_FALSE(identity.update(timestamp_from_s(1), people, tags)[0].tag);
@@ -242,7 +242,7 @@ TEST(Identity, TheSameImageTwiceIsSeenOnce) {
 }
 
 TEST(Identity, NumbersThatAreNoneAreNoEvidence) {
-    Identity identity(IdentitySettings{});
+    Identity identity(IdentitySettings{}, 16);
     const std::vector<SeenPerson> people{seen_at(1, std::nan(""))};
     const std::vector<LocatedTag> tags{tag_at(7, 0), {address(8), {0, 0}, Eigen::Matrix2d::Zero()}};
     for (int i = 0; i < 20; ++i)

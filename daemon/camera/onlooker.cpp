@@ -1,0 +1,73 @@
+#include "daemon/camera/onlooker.h"
+
+#include "config/camera_calibration.h"
+#include "drivers/clock.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace locus {
+namespace {
+
+constexpr Duration try_again_after = std::chrono::seconds{5};
+/// Of height over width, between the frames and the images of the calibration: one is a cut-out of the other.
+constexpr double same_shape = 0.01;
+
+vision::BodyHeight body_of(const CameraInputSettings& settings) {
+    return {settings.person_height_m, settings.person_height_sigma_m};
+}
+
+} // namespace
+
+std::span<const vision::ImageTrack> Onlooker::look(const camera::Frame& frame) {
+    if (!is_ready(frame)) return {};
+    return people_.has_value() ? people_.value().look(frame) : std::span<const vision::ImageTrack>{};
+}
+
+std::span<const FootPoint> Onlooker::feet(Address camera) {
+    return people_.has_value() ? people_.value().feet(camera) : std::span<const FootPoint>{};
+}
+
+bool Onlooker::is_ready(const camera::Frame& frame) {
+    const bool same = frame.picture.width_px == width_px_ && frame.picture.height_px == height_px_;
+    const bool wait = people_.has_value() || monotonic_now() - tried_ < try_again_after;
+    if (!same || !wait) prepare(frame.picture);
+    return people_.has_value();
+}
+
+void Onlooker::prepare(const camera::Picture& picture) {
+    width_px_ = picture.width_px;
+    height_px_ = picture.height_px;
+    tried_ = monotonic_now();
+    trouble_.clear();
+    people_.reset();
+    read_calibration(picture);
+    if (!trouble_.empty()) return;
+    camera::PeopleParts parts{.tracker = settings_.tracker, .floor = floor_, .body = body_of(settings_)};
+    parts.detector = settings_.detector->make(settings_.detector_settings.get(),
+                                              camera::expected_height(floor_, parts.body), trouble_);
+    if (parts.detector) people_.emplace(std::move(parts));
+}
+
+void Onlooker::read_calibration(const camera::Picture& picture) {
+    floor_.reset();
+    if (settings_.calibration.empty()) return;
+    std::vector<ConfigProblem> problems;
+    const auto calibration = config::load_camera(settings_.calibration, problems);
+    if (!calibration.has_value()) {
+        trouble_ = problems.empty() ? "its calibration cannot be read" : to_string(problems.front());
+        return;
+    }
+    const Eigen::Vector2d size_px(picture.width_px, picture.height_px), made_px = calibration.value().image_px;
+    if (std::abs(size_px.y() / size_px.x() * made_px.x() / made_px.y() - 1) > same_shape) {
+        trouble_ = fmt::format("{} was made with images of {:g}x{:g}, but the camera gives {:g}x{:g}, which is another "
+                               "shape: calibrate it with this size, or set the other one",
+                               settings_.calibration, made_px.x(), made_px.y(), size_px.x(), size_px.y());
+        return;
+    }
+    floor_ = config::view_for(calibration.value(), size_px);
+}
+
+} // namespace locus
