@@ -4,6 +4,7 @@
 #include "drivers/camera/picture_file.h"
 #include "tools/show/table.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,13 +101,10 @@ std::vector<std::string> remarks_of(const Boards& boards, const camera::LensFit&
 
 /// Share of the image's width and height that the corners reach over.
 Eigen::Vector2d reach_of(const Boards& boards) {
-    Eigen::Vector2d low = boards.image_px, high = Eigen::Vector2d::Zero();
+    Eigen::AlignedBox2d reach;
     for (const auto& corners : boards.corners)
-        for (const auto& corner : corners) {
-            low = low.cwiseMin(corner);
-            high = high.cwiseMax(corner);
-        }
-    return (high - low).cwiseQuotient(boards.image_px);
+        for (const auto& corner : corners) reach.extend(corner);
+    return reach.sizes().cwiseQuotient(boards.image_px);
 }
 
 std::vector<std::string> lines_of(const Boards& boards, const camera::LensFit& fit) {

@@ -18,8 +18,6 @@
 namespace locus::calibrate {
 namespace {
 
-using vision::survey::SeenFoot;
-
 /// A track and its detection have so much in common, or it is another's.
 constexpr float least_overlap = 0.5F;
 /// Whoever is cut off by the image's lower edge shows no feet.
