@@ -32,7 +32,7 @@ std::vector<Eigen::Vector3d> rays_of(std::span<const FloorPair> pairs, const std
     std::vector<Eigen::Vector3d> rays;
     for (const FloorPair& pair : pairs)
         if (!lens.has_value())
-            rays.push_back(condition * pair.pixel_px.homogeneous());
+            rays.emplace_back(condition * pair.pixel_px.homogeneous());
         else if (const auto ray = unproject(*lens, pair.pixel_px))
             rays.push_back(*ray);
     return rays;
@@ -77,7 +77,7 @@ std::optional<FloorView> start_view(std::span<const FloorPair> pairs, const std:
     const auto rays = rays_of(pairs, lens, from_pixel);
     if (rays.size() < pairs.size()) return std::nullopt;
     std::vector<Eigen::Vector3d> places;
-    for (const FloorPair& pair : pairs) places.push_back(from_site * pair.site_m.homogeneous());
+    for (const FloorPair& pair : pairs) places.emplace_back(from_site * pair.site_m.homogeneous());
     const auto fit = linear_fit(rays, places);
     if (!fit) return std::nullopt;
     const Eigen::Matrix3d ray_from_floor = *fit * from_site;
