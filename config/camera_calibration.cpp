@@ -44,11 +44,14 @@ vision::Lens lens_of(const CameraSettings& s) {
     return vision::PinholeLens{focal_px, centre_px, {s.k1, s.k2, s.k3, s.k4, s.k5, s.k6}, {s.p1, s.p2}};
 }
 
+bool has_lens(const CameraSettings& s, Problems& problems) {
+    return all({has(s.fx_px, "fx_px", s, problems), has(s.fy_px, "fy_px", s, problems),
+                has(s.cx_px, "cx_px", s, problems), has(s.cy_px, "cy_px", s, problems)});
+}
+
 std::optional<FloorView> camera_of(const CameraSettings& s, Problems& problems) {
-    const bool is_whole =
-        all({has(s.fx_px, "fx_px", s, problems), has(s.fy_px, "fy_px", s, problems), has(s.cx_px, "cx_px", s, problems),
-             has(s.cy_px, "cy_px", s, problems), has(s.rotation_vector_rad, "rotation_vector_rad", s, problems),
-             has(s.translation_m, "translation_m", s, problems)});
+    const bool is_whole = all({has_lens(s, problems), has(s.rotation_vector_rad, "rotation_vector_rad", s, problems),
+                               has(s.translation_m, "translation_m", s, problems)});
     if (!is_whole) return std::nullopt;
     const Eigen::Vector3d turn = vector(s.rotation_vector_rad);
     Camera camera{lens_of(s), Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix(),
@@ -76,34 +79,69 @@ std::optional<FloorView> homography_of(const CameraSettings& s, Problems& proble
     return vision::floor_homography(rows * from_middle, bottom_middle);
 }
 
-} // namespace
-
-std::optional<CameraCalibration> parse_camera_yaml(std::string_view text, Problems& problems) {
+std::optional<CameraSettings> settings_of(std::string_view text, Problems& problems) {
     const auto tree = parse_yaml(text, problems);
     CameraSettings settings;
     const BoundOptions table[]{{camera_options, &settings}};
     if (!tree || !read_map(*tree, {"camera"}, table, problems) || !problems.empty()) return std::nullopt;
-    auto view = settings.model == "homography" ? homography_of(settings, problems) : camera_of(settings, problems);
-    if (!view) return std::nullopt;
-    return CameraCalibration{*view, {settings.width_px, settings.height_px}};
+    return settings;
 }
 
-std::optional<CameraCalibration> parse_camera(std::string_view text, Problems& problems) {
+bool is_xml(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    const bool is_xml = first != std::string_view::npos && text[first] == '<';
-    return is_xml ? parse_tsai_xml(text, problems) : parse_camera_yaml(text, problems);
+    return first != std::string_view::npos && text[first] == '<';
 }
 
-std::optional<CameraCalibration> load_camera(const std::string& path, std::vector<ConfigProblem>& problems) {
+/// What `parse` makes of a file's text.
+template <class Calibration>
+std::optional<Calibration> load(const std::string& path, std::vector<ConfigProblem>& problems,
+                                std::optional<Calibration> (*parse)(std::string_view, Problems&)) {
     Problems found(path);
     std::string error;
-    std::optional<CameraCalibration> calibration;
+    std::optional<Calibration> calibration;
     if (const auto text = read_file(path, error))
-        calibration = parse_camera(*text, found);
+        calibration = parse(*text, found);
     else
         found.add({}, error);
     for (auto& problem : found.take()) problems.push_back(std::move(problem));
     return calibration;
+}
+
+} // namespace
+
+std::optional<CameraCalibration> parse_camera_yaml(std::string_view text, Problems& problems) {
+    const auto settings = settings_of(text, problems);
+    if (!settings) return std::nullopt;
+    auto view = settings->model == "homography" ? homography_of(*settings, problems) : camera_of(*settings, problems);
+    if (!view) return std::nullopt;
+    return CameraCalibration{*view, {settings->width_px, settings->height_px}};
+}
+
+std::optional<LensCalibration> parse_lens(std::string_view text, Problems& problems) {
+    if (is_xml(text)) {
+        problems.add({}, "this is XML: a lens is read from YAML of the model pinhole or fisheye, as `locus calibrate "
+                         "camera chessboard` writes it");
+        return std::nullopt;
+    }
+    const auto settings = settings_of(text, problems);
+    if (!settings) return std::nullopt;
+    if (settings->model == "homography")
+        problems.add({}, "a homography says nothing of the lens: give a calibration of the model pinhole or fisheye");
+    else if (has_lens(*settings, problems))
+        return LensCalibration{lens_of(*settings), {settings->width_px, settings->height_px}};
+    return std::nullopt;
+}
+
+std::optional<CameraCalibration> parse_camera(std::string_view text, Problems& problems) {
+    return is_xml(text) ? parse_tsai_xml(text, problems) : parse_camera_yaml(text, problems);
+}
+
+std::optional<CameraCalibration> load_camera(const std::string& path, std::vector<ConfigProblem>& problems) {
+    return load(path, problems, parse_camera);
+}
+
+std::optional<LensCalibration> load_lens(const std::string& path, std::vector<ConfigProblem>& problems) {
+    return load(path, problems, parse_lens);
 }
 
 vision::FloorView view_for(const CameraCalibration& calibration, const Eigen::Vector2d& image_px) noexcept {

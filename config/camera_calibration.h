@@ -16,6 +16,12 @@ struct CameraCalibration {
     Eigen::Vector2d image_px{0, 0}; ///< size of the images that it was made with
 };
 
+/// A lens alone: of a camera that is not told yet where it hangs.
+struct LensCalibration {
+    vision::Lens lens;
+    Eigen::Vector2d image_px{0, 0}; ///< size of the images that it was made with
+};
+
 /// XML when the first sign is '<'. Empty with at least one problem; never throws but std::bad_alloc.
 std::optional<CameraCalibration> parse_camera(std::string_view text, Problems& problems);
 
@@ -27,6 +33,10 @@ std::optional<CameraCalibration> parse_tsai_xml(std::string_view text, Problems&
 
 /// A file's; empty with a problem for each thing that is wrong.
 std::optional<CameraCalibration> load_camera(const std::string& path, std::vector<ConfigProblem>& problems);
+
+/// The lens of a YAML file of model pinhole or fisheye; what it says of the camera's place is passed over.
+std::optional<LensCalibration> parse_lens(std::string_view text, Problems& problems);
+std::optional<LensCalibration> load_lens(const std::string& path, std::vector<ConfigProblem>& problems);
 
 /// For images of another size than the calibration's: cameras are calibrated at one and run at another.
 vision::FloorView view_for(const CameraCalibration& calibration, const Eigen::Vector2d& image_px) noexcept;

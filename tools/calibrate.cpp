@@ -1,6 +1,7 @@
-// locus calibrate: what a site's settings say of its anchors, measured instead of taped.
+// locus calibrate: what a site's settings say of its anchors and cameras, measured instead of taped.
 #include "tools/calibrate/anchors.h"
 #include "tools/calibrate/bias.h"
+#include "tools/calibrate/camera.h"
 #include "tools/client/command.h"
 #include "tools/settings_file.h"
 #include "tools/show/terminal.h"
@@ -199,13 +200,15 @@ void add_bias(CLI::App& calibrate, int& exit_code) {
 } // namespace
 
 void add_calibrate(CLI::App& root, int& exit_code) {
-    CLI::App& app =
-        *root.add_subcommand("calibrate", "Finds where anchors stand, and by how much their ranges are off");
+    CLI::App& app = *root.add_subcommand(
+        "calibrate", "Finds where anchors stand, by how much their ranges are off, and how cameras see the floor");
     app.require_subcommand(1);
     app.footer(
-        "`locus calibrate anchors --help` and `locus calibrate bias --help` tell more; docs/calibrate.md tells all.");
+        "`locus calibrate anchors --help`, `... bias --help` and `... camera --help` tell more; docs/calibrate.md and "
+        "docs/cameras.md tell all.");
     add_anchors(app, exit_code);
     add_bias(app, exit_code);
+    add_camera(app, exit_code);
 }
 
 } // namespace locus

@@ -1,4 +1,5 @@
 // People by their outline (HOG), also those who stand still; and the same with what moves as a second witness.
+#include "drivers/camera/chance.h"
 #include "drivers/camera/detector_rows.h"
 #include "drivers/camera/hog.h"
 #include "drivers/camera/mat.h"
@@ -33,6 +34,12 @@ bool is_possible(const vision::BoxPx& box, const HeightMap& heights) {
     return expected && has_expected_height(box.height_px, *expected);
 }
 
+/// In place of margins; what moves without an outline has the share of its box as its margin.
+std::vector<vision::Detection> with_chances(std::vector<vision::Detection> people) {
+    for (auto& person : people) person.score = chance_of_margin(person.score);
+    return people;
+}
+
 class HogDetector : public Detector {
   public:
     HogDetector(const HogPeopleSettings& settings, const ExpectedHeight& height)
@@ -43,7 +50,7 @@ class HogDetector : public Detector {
         const auto most_iou = static_cast<float>(settings_.most_iou);
         for (const auto& person : suppress(found, most_iou)) heights_.learn(person.box);
         std::erase_if(found, [&](const auto& person) { return !is_possible(person.box, heights_); });
-        return sorting_.sort(picture, suppress(std::move(found), most_iou));
+        return with_chances(sorting_.sort(picture, suppress(std::move(found), most_iou)));
     }
 
   private:
@@ -81,7 +88,8 @@ class HogMotionDetector : public Detector {
         auto people = believed(hog_.find(image));
         const auto others = moving_.find(people);
         people.insert(people.end(), others.begin(), others.end());
-        return sorting_.sort(picture, suppress(std::move(people), static_cast<float>(settings_.most_iou)));
+        return with_chances(
+            sorting_.sort(picture, suppress(std::move(people), static_cast<float>(settings_.most_iou))));
     }
 
   private:

@@ -1,4 +1,5 @@
 // People are what moves before a fixed camera. Needs no weights and runs on any box; who stands still for long is lost.
+#include "drivers/camera/chance.h"
 #include "drivers/camera/detector_rows.h"
 #include "drivers/camera/mat.h"
 #include "drivers/camera/moving_people.h"
@@ -15,7 +16,9 @@ class MotionDetector : public Detector {
 
     std::vector<vision::Detection> detect(const Picture& picture) override {
         moving_.look(as_mat(picture));
-        return sorting_.sort(picture, moving_.find());
+        auto people = sorting_.sort(picture, moving_.find());
+        for (auto& person : people) person.score = chance_of_movement;
+        return people;
     }
 
   private:

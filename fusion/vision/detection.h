@@ -24,7 +24,7 @@ using Appearance = std::vector<float>;
 
 struct Detection {
     BoxPx box;
-    float score = 1; ///< the detector's own, higher is surer; its meaning differs from detector to detector
+    float score = 1; ///< 0..1: the chance that it is somebody, as far as the detector can tell
     Appearance appearance;
 };
 

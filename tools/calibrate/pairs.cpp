@@ -1,6 +1,7 @@
 #include "tools/calibrate/pairs.h"
 
 #include "config/address.h"
+#include "tools/calibrate/fields.h"
 #include "tools/evaluate/statistics.h"
 #include "tools/import/lines.h"
 #include "tools/replay/recording.h"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -101,26 +101,6 @@ MeasuredPairs Gathered::result() const {
             if (std::ranges::find(found.anchors, anchor.address, &Anchor::address) == found.anchors.end())
                 found.notes.push_back(fmt::format("{} was measured by no other anchor: left as it is", anchor.name));
     return found;
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (;;) {
-        const auto comma = line.find(',');
-        auto field = line.substr(0, comma);
-        while (field.starts_with(' ')) field.remove_prefix(1);
-        while (field.ends_with(' ') || field.ends_with('\r')) field.remove_suffix(1);
-        fields.push_back(field);
-        if (comma == std::string_view::npos) return fields;
-        line.remove_prefix(comma + 1);
-    }
-}
-
-std::optional<double> number_of(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.begin(), text.end(), value);
-    if (error != std::errc{} || end != text.end()) return {};
-    return value;
 }
 
 std::optional<std::string> add_line(Gathered& gathered, const std::vector<std::string_view>& fields, bool named) {

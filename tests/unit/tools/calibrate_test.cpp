@@ -245,6 +245,8 @@ TEST(CalibrateCompletion, KnowsItsWords) {
     add_calibrate(root, exit_code);
     EXPECT_THAT(tools::bash_completion(root), HasSubstr("' calibrate anchors'"));
     EXPECT_THAT(tools::bash_completion(root), HasSubstr("--known"));
+    EXPECT_THAT(tools::bash_completion(root), HasSubstr("' calibrate camera walk'"));
+    EXPECT_THAT(tools::bash_completion(root), HasSubstr("--frames"));
 }
 
 } // namespace
