@@ -37,12 +37,15 @@ void RunningCamera::Body::see(const camera::Frame& frame) {
     show(frame, tracks);
 }
 
-void RunningCamera::Body::show(const camera::Frame& frame, std::span<const vision::ImageTrack> tracks) {
+/// Whoever asked is told after a while that nothing came.
+void RunningCamera::Body::show(const camera::Frame& frame, std::span<const vision::ImageTrack> tracks) try {
     const auto names = view.asked();
     if (!names.has_value()) return;
     camera::Picture picture = frame.picture;
     camera::annotate(picture, tracks, names.value(), onlooker.floor());
     view.show(camera::to_jpeg(picture));
+} catch (const std::exception& error) {
+    log.tell({InputEvent::Kind::trouble, fmt::format("cannot be shown: {}", error.what())});
 }
 
 /// A recording gets it as a line of bytes, stamped when it came, as if a device had sent it.

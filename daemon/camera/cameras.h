@@ -35,7 +35,7 @@ class RunningCamera {
 
   private:
     struct Body {
-        Body(const CameraInputSettings& given, std::size_t place, LogFile* recording);
+        Body(const CameraInputSettings& given, std::size_t place, LogFile* to);
         camera::CameraParts parts();
         void see(const camera::Frame& frame);
         void give(const FootPoint& foot, Timestamp time);

@@ -12,6 +12,10 @@ namespace locus {
 namespace {
 
 constexpr Duration try_again_after = std::chrono::seconds{5};
+/// Nobody begins a track a second for long: so numbers that were given before a reload, which the engine may still
+/// know, are not given again.
+std::uint32_t fresh_track_number() { return static_cast<std::uint32_t>(to_s(monotonic_now())); }
+
 /// Of height over width, between the frames and the images of the calibration: one is a cut-out of the other.
 constexpr double same_shape = 0.01;
 
@@ -21,20 +25,24 @@ vision::BodyHeight body_of(const CameraInputSettings& settings) {
 
 } // namespace
 
-std::span<const vision::ImageTrack> Onlooker::look(const camera::Frame& frame) {
-    if (!is_ready(frame)) return {};
+std::span<const vision::ImageTrack> Onlooker::look(const camera::Frame& frame) try {
+    prepare_if_due(frame.picture);
     return people_.has_value() ? people_.value().look(frame) : std::span<const vision::ImageTrack>{};
+} catch (const std::exception& error) { // OpenCV's: a network that does not take such pictures
+    people_.reset();
+    tried_ = monotonic_now();
+    trouble_ = fmt::format("people cannot be looked for: {}", error.what());
+    return {};
 }
 
 std::span<const FootPoint> Onlooker::feet(Address camera) {
     return people_.has_value() ? people_.value().feet(camera) : std::span<const FootPoint>{};
 }
 
-bool Onlooker::is_ready(const camera::Frame& frame) {
-    const bool same = frame.picture.width_px == width_px_ && frame.picture.height_px == height_px_;
+void Onlooker::prepare_if_due(const camera::Picture& picture) {
+    const bool same = picture.width_px == width_px_ && picture.height_px == height_px_;
     const bool wait = people_.has_value() || monotonic_now() - tried_ < try_again_after;
-    if (!same || !wait) prepare(frame.picture);
-    return people_.has_value();
+    if (!same || !wait) prepare(picture);
 }
 
 void Onlooker::prepare(const camera::Picture& picture) {
@@ -45,7 +53,8 @@ void Onlooker::prepare(const camera::Picture& picture) {
     people_.reset();
     read_calibration(picture);
     if (!trouble_.empty()) return;
-    camera::PeopleParts parts{.tracker = settings_.tracker, .floor = floor_, .body = body_of(settings_)};
+    camera::PeopleParts parts{
+        .tracker = settings_.tracker, .floor = floor_, .body = body_of(settings_), .first_track = fresh_track_number()};
     parts.detector = settings_.detector->make(settings_.detector_settings.get(),
                                               camera::expected_height(floor_, parts.body), trouble_);
     if (parts.detector) people_.emplace(std::move(parts));

@@ -26,7 +26,7 @@ class Onlooker {
     const std::optional<vision::FloorView>& floor() const { return floor_; }
 
   private:
-    bool is_ready(const camera::Frame& frame);
+    void prepare_if_due(const camera::Picture& picture);
     void prepare(const camera::Picture& picture);
     void read_calibration(const camera::Picture& picture);
 

@@ -83,7 +83,7 @@ ParsedCommand parse_view(std::string_view text) {
     const json options = json::parse(text, nullptr, false);
     const auto camera = options.is_object() ? options.find("camera") : options.end();
     if (camera == options.end() || !camera->is_string())
-        return BadCommand{"?VIEW: after '=' comes the name of a camera, as in ?VIEW={\"camera\":\"gate\"};"};
+        return BadCommand{R"(?VIEW: after '=' comes the name of a camera, as in ?VIEW={"camera":"gate"};)"};
     return Command{.verb = Verb::view, .camera = camera->get<std::string>()};
 }
 

@@ -32,7 +32,8 @@ void draw_floor_line(cv::Mat& image, const vision::FloorView& floor, Eigen::Vect
     const double length_m = (to_m - from_m).norm();
     const Eigen::Vector2d step_m = (to_m - from_m) * (grid_step_m / length_m);
     auto before = vision::pixel_of_floor(floor, from_m);
-    for (double way_m = 0; way_m < length_m; way_m += grid_step_m) {
+    const auto steps = std::lround(length_m / grid_step_m);
+    for (long step = 0; step < steps; ++step) {
         from_m += step_m;
         const auto here = vision::pixel_of_floor(floor, from_m);
         const bool seen = before.has_value() && here.has_value() && before->cwiseAbs().maxCoeff() < max_side_px &&

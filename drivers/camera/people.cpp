@@ -40,7 +40,8 @@ ExpectedHeight expected_height(const std::optional<vision::FloorView>& floor, co
     };
 }
 
-People::People(PeopleParts parts) : parts_(std::move(parts)), tracker_(parts_.tracker, parts_.floor) {}
+People::People(PeopleParts parts)
+    : parts_(std::move(parts)), tracker_(parts_.tracker, parts_.floor, parts_.first_track) {}
 
 std::span<const vision::ImageTrack> People::look(const Frame& frame) {
     tracks_ = tracker_.update(frame.captured, parts_.detector->detect(frame.picture));

@@ -23,6 +23,7 @@ struct PeopleParts {
     vision::TrackerSettings tracker{};
     std::optional<vision::FloorView> floor{}; ///< for frames of this size; empty: not calibrated
     vision::BodyHeight body{};
+    std::uint32_t first_track = 1; ///< number of the first person
 };
 
 class People {

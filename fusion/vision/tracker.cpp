@@ -48,8 +48,8 @@ std::optional<FloorPoint> stands_at(const FloorView& floor, const ImageTrack& tr
     return head->covariance_m2.trace() < foot->covariance_m2.trace() ? head : foot;
 }
 
-Tracker::Tracker(const TrackerSettings& settings, std::optional<FloorView> floor)
-    : settings_(settings), floor_(std::move(floor)) {}
+Tracker::Tracker(const TrackerSettings& settings, std::optional<FloorView> floor, std::uint32_t first_id)
+    : settings_(settings), floor_(std::move(floor)), next_id_(first_id) {}
 
 std::span<const ImageTrack> Tracker::update(Timestamp time, std::span<const Detection> detections) {
     if (last_ && time <= *last_) return shown_;

@@ -17,7 +17,7 @@ namespace locus::vision {
 
 /// A person in the image, as far as the images up to now tell.
 struct ImageTrack {
-    std::uint32_t id = 0; ///< from 1, never given twice
+    std::uint32_t id = 0; ///< never given twice
     BoxPx box;
     Eigen::Vector2d foot_px;
     Eigen::Matrix2d foot_covariance_px2;
@@ -37,8 +37,9 @@ inline constexpr std::size_t max_detections = 256;
 
 class Tracker {
   public:
-    /// With `floor`, nobody is found again where he could not have walked.
-    explicit Tracker(const TrackerSettings& settings, std::optional<FloorView> floor = std::nullopt);
+    /// With `floor`, nobody is found again where he could not have walked. Tracks are numbered from `first_id` on.
+    explicit Tracker(const TrackerSettings& settings, std::optional<FloorView> floor = std::nullopt,
+                     std::uint32_t first_id = 1);
 
     /// The confirmed tracks after the image of `time`. Times rise; an image that is not newer than the last changes
     /// nothing. Boxes that are none (not finite, empty) are passed over, and all beyond max_detections.
@@ -56,7 +57,7 @@ class Tracker {
     std::vector<Track> tracks_;
     std::vector<ImageTrack> shown_;
     std::optional<Timestamp> last_;
-    std::uint32_t next_id_ = 1;
+    std::uint32_t next_id_;
 };
 
 } // namespace locus::vision
