@@ -17,6 +17,9 @@ namespace locus::test {
 inline constexpr double pets_frame_s = 1. / 7;
 inline constexpr float pets_scale = 1.6F; ///< the video at hand is 480 x 360
 
+/// The lower middle of a box.
+inline Eigen::Vector2d foot_of(const vision::BoxPx& box) { return {box.left_px + 0.5 * box.width_px, box.bottom_px()}; }
+
 inline BoxesOfFrame annotated_people(const pugi::xml_node& frame) {
     BoxesOfFrame people;
     for (const auto& object : frame.child("objectlist").children("object")) {

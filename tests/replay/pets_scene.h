@@ -20,10 +20,6 @@ namespace locus::test {
 inline constexpr double pets_start_s = 1;
 inline double pets_time_s(std::size_t frame) { return pets_start_s + pets_frame_s * static_cast<double>(frame); }
 
-inline Eigen::Vector2d foot_of(const vision::BoxPx& box) {
-    return {double{box.left_px} + 0.5 * double{box.width_px}, double{box.bottom_px()}};
-}
-
 /// One person's way on the floor, a place for each frame in which he is annotated.
 class PetsWay {
   public:

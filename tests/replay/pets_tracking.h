@@ -22,8 +22,6 @@ struct PetsFigures {
     }
 };
 
-inline Eigen::Vector2d foot_of(const vision::BoxPx& box) { return {box.left_px + 0.5 * box.width_px, box.bottom_px()}; }
-
 /// How far apart two feet in the image are on the floor.
 inline std::optional<double> floor_distance_m(const vision::FloorView& floor, const Eigen::Vector2d& a_px,
                                               const Eigen::Vector2d& b_px) {

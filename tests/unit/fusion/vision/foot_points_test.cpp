@@ -126,50 +126,50 @@ TEST(FootPoints, FindTheirOwnersAndMakeThemSurer) {
 }
 
 TEST(FootPoints, CarryATargetWhoseTagFallsSilent) {
-    CameraHall hall(hall_settings());
-    hall.run(10, 20);
-    hall.uwb = false;
-    hall.errors_m.clear();
-    hall.run(20, 24);
-    EXPECT_LT(*std::ranges::max_element(hall.errors_m), 0.7);
-    EXPECT_EQ(hall.poses[0].estimate.missing, Missing::nothing);
-    EXPECT_EQ(hall.poses[0].seen_as.track, 1u);
+    CameraHall scene(hall_settings());
+    scene.run(10, 20);
+    scene.uwb = false;
+    scene.errors_m.clear();
+    scene.run(20, 24);
+    EXPECT_LT(*std::ranges::max_element(scene.errors_m), 0.7);
+    EXPECT_EQ(scene.poses[0].estimate.missing, Missing::nothing);
+    EXPECT_EQ(scene.poses[0].seen_as.track, 1u);
 }
 
 TEST(FootPoints, GoToTheOtherWhenTheTrackerSwapsTwo) {
-    CameraHall hall(hall_settings());
-    hall.run(10, 20);
-    std::swap(hall.tracks[0], hall.tracks[1]);
-    hall.run(20, 23);
-    EXPECT_EQ(hall.poses[0].seen_as.track, 2u);
-    EXPECT_EQ(hall.poses[1].seen_as.track, 1u);
-    EXPECT_LT(hall.error_m(0), 0.5);
+    CameraHall scene(hall_settings());
+    scene.run(10, 20);
+    std::swap(scene.tracks[0], scene.tracks[1]);
+    scene.run(20, 23);
+    EXPECT_EQ(scene.poses[0].seen_as.track, 2u);
+    EXPECT_EQ(scene.poses[1].seen_as.track, 1u);
+    EXPECT_LT(scene.error_m(0), 0.5);
 }
 
 TEST(FootPoints, OfPeopleWithoutATagAreTargetsWhereThatIsWanted) {
     EngineSettings settings = hall_settings();
     settings.vision.anonymous = true;
     settings.fusion.accept_unknown_targets = false;
-    CameraHall hall(settings);
-    hall.run(10, 20);
-    const Pose* third = hall.anonymous();
+    CameraHall scene(settings);
+    scene.run(10, 20);
+    const Pose* third = scene.anonymous();
     ASSERT_NE(third, nullptr);
-    EXPECT_EQ(hall.poses.size(), 5u) << "until it is known who they are, the other two are people as well";
-    EXPECT_EQ(hall.engine.target_name(third->target_index).substr(0, 12), "anonymous-1-");
-    const auto here =
-        std::ranges::count_if(hall.poses, [](const Pose& pose) { return pose.estimate.missing == Missing::nothing; });
-    EXPECT_EQ(here, 3);
+    EXPECT_EQ(scene.poses.size(), 5u) << "until it is known who they are, the other two are people as well";
+    EXPECT_EQ(scene.engine.target_name(third->target_index).substr(0, 12), "anonymous-1-");
+    const auto placed =
+        std::ranges::count_if(scene.poses, [](const Pose& pose) { return pose.estimate.missing == Missing::nothing; });
+    EXPECT_EQ(placed, 3);
 }
 
 TEST(FootPoints, OfNoCameraOrTooLateAreRefused) {
-    CameraHall hall(hall_settings());
-    hall.run(10, 11);
+    CameraHall scene(hall_settings());
+    scene.run(10, 11);
     FootPoint foot;
     foot.camera = address(1);
-    hall.engine.submit({timestamp_from_s(11), 1, 1, foot}, timestamp_from_s(11));
+    scene.engine.submit({timestamp_from_s(11), 1, 1, foot}, timestamp_from_s(11));
     foot.camera = address(0);
-    hall.engine.submit({timestamp_from_s(10.85), 2, 1, foot}, timestamp_from_s(11));
-    const auto& reasons = hall.engine.counters().by_reason;
+    scene.engine.submit({timestamp_from_s(10.85), 2, 1, foot}, timestamp_from_s(11));
+    const auto& reasons = scene.engine.counters().by_reason;
     EXPECT_EQ(reasons[static_cast<std::size_t>(Exclusion::unknown_camera)], 1u);
     EXPECT_EQ(reasons[static_cast<std::size_t>(Exclusion::late)], 1u);
 }
@@ -177,10 +177,10 @@ TEST(FootPoints, OfNoCameraOrTooLateAreRefused) {
 TEST(FootPoints, NeverAllocate) {
     EngineSettings settings = hall_settings();
     settings.vision.anonymous = true;
-    CameraHall hall(settings);
-    hall.errors_m.reserve(1000);
+    CameraHall scene(settings);
+    scene.errors_m.reserve(1000);
     const test::AllocationCount count;
-    hall.run(10, 20);
+    scene.run(10, 20);
     EXPECT_EQ(count.made(), 0u);
 }
 
