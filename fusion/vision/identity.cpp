@@ -124,7 +124,7 @@ double Identity::cost(std::size_t track, std::size_t tag) const noexcept {
 }
 
 double Identity::confidence(std::size_t track, std::size_t tag) const noexcept {
-    const auto likelihood = [&](std::size_t one, std::size_t other) { return std::exp(-0.5 * cost(one, other)); };
+    const auto likelihood = [&](std::size_t row, std::size_t column) { return std::exp(-0.5 * cost(row, column)); };
     const double this_one = likelihood(track, tag);
     double all = std::exp(-0.5 * settings_.gate) + this_one;
     for (std::size_t other = 0; other < tags_.size(); ++other)

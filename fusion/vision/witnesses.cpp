@@ -14,13 +14,13 @@ constexpr double velocity_walk = 1.3;
 LocatedTag some_time_before(const Estimate& estimate, double dt_s, Address tag) {
     LocatedTag located;
     located.tag = tag;
-    const auto p = [&](int row, int column) { return estimate.covariance[static_cast<std::size_t>(6 * row + column)]; };
+    const auto p = [&](std::size_t row, std::size_t column) { return estimate.covariance[6 * row + column]; };
     const double walked_m2 = velocity_walk * velocity_walk * dt_s * dt_s * dt_s / 3;
-    for (int i = 0; i < 2; ++i) {
-        const auto axis = static_cast<std::size_t>(i);
-        located.position_site_m(i) = estimate.position_site_m[axis] - dt_s * estimate.velocity_site_mps[axis];
-        for (int j = 0; j < 2; ++j)
-            located.covariance_m2(i, j) =
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        located.position_site_m(row) = estimate.position_site_m[i] - dt_s * estimate.velocity_site_mps[i];
+        for (std::size_t j = 0; j < 2; ++j)
+            located.covariance_m2(row, static_cast<Eigen::Index>(j)) =
                 p(i, j) - dt_s * (p(i, 3 + j) + p(3 + i, j)) + dt_s * dt_s * p(3 + i, 3 + j) + (i == j ? walked_m2 : 0);
     }
     return located;

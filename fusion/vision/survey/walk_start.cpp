@@ -134,9 +134,11 @@ std::vector<WalkStart> start_walk(std::span<const SeenFoot> feet, const TaggedPa
     const auto few = thinned(feet);
     Random random(1);
     std::vector<WalkStart> starts;
-    for (double offset_s = settings.least_offset_s; offset_s <= settings.most_offset_s + 1e-9;
-         offset_s += offset_step_s)
+    const auto steps = std::lround((settings.most_offset_s - settings.least_offset_s) / offset_step_s);
+    for (long step = 0; step <= steps; ++step) {
+        const double offset_s = settings.least_offset_s + static_cast<double>(step) * offset_step_s;
         if (auto best = best_at(offset_s, few, path, lens, settings, random)) starts.push_back(*best);
+    }
     std::ranges::sort(starts, {}, &WalkStart::cost);
     starts.resize(std::min(starts.size(), starts_kept), starts.empty() ? WalkStart{} : starts.front());
     return starts;
