@@ -19,11 +19,6 @@ cv::Rect to_rect(const vision::BoxPx& box, const cv::Size& image) {
     return cv::Rect{left, top, std::max(right - left, 1), std::max(bottom - top, 1)} & cv::Rect{{0, 0}, image};
 }
 
-vision::BoxPx to_box(const cv::Rect& rect) {
-    return {static_cast<float>(rect.x), static_cast<float>(rect.y), static_cast<float>(rect.width),
-            static_cast<float>(rect.height)};
-}
-
 int sum_in(const cv::Mat& integral, const cv::Rect& rect) {
     return integral.at<int>(rect.br()) - integral.at<int>(rect.y, rect.br().x) - integral.at<int>(rect.br().y, rect.x) +
            integral.at<int>(rect.tl());
@@ -134,34 +129,11 @@ std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap&
     return people;
 }
 
-float filled_share(const cv::Mat& foreground, const vision::BoxPx& box) {
-    const cv::Rect rect = to_rect(box, foreground.size());
-    if (rect.empty()) return 0;
-    return static_cast<float>(cv::countNonZero(foreground(rect))) / static_cast<float>(rect.area());
-}
+MovingShares::MovingShares(const cv::Mat& foreground) { cv::integral(foreground / 255, sums_, CV_32S); }
 
-std::vector<vision::Detection> regions_as_people(const cv::Mat& foreground, float least_height_px) {
-    cv::Mat labels;
-    cv::Mat statistics;
-    cv::Mat centres;
-    const int count = cv::connectedComponentsWithStats(foreground, labels, statistics, centres);
-    std::vector<vision::Detection> regions;
-    for (int i = 1; i < count; ++i) { // 0 is the background
-        const auto value = [&](int column) { return statistics.at<int>(i, column); };
-        const cv::Rect rect{value(cv::CC_STAT_LEFT), value(cv::CC_STAT_TOP), value(cv::CC_STAT_WIDTH),
-                            value(cv::CC_STAT_HEIGHT)};
-        const auto filled = static_cast<float>(value(cv::CC_STAT_AREA)) / static_cast<float>(rect.area());
-        if (static_cast<float>(rect.height) >= least_height_px) regions.push_back({to_box(rect), filled, {}});
-    }
-    return regions;
-}
-
-bool is_lone_person(const vision::Detection& region, const cv::Size& image) {
-    const vision::BoxPx& box = region.box;
-    const float aspect = box.width_px / box.height_px;
-    const bool inside = box.left_px > 0 && box.top_px > 0 && box.right_px() < static_cast<float>(image.width) &&
-                        box.bottom_px() < static_cast<float>(image.height);
-    return inside && aspect > person_aspect / 2 && aspect < person_aspect * 1.5F && region.score > 0.4F;
+float MovingShares::of(const vision::BoxPx& box) const {
+    const cv::Rect rect = sums_.empty() ? cv::Rect{} : to_rect(box, {sums_.cols - 1, sums_.rows - 1});
+    return rect.empty() ? 0 : static_cast<float>(sum_in(sums_, rect)) / static_cast<float>(rect.area());
 }
 
 } // namespace locus::camera

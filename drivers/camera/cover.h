@@ -23,13 +23,16 @@ struct CoverSettings {
 std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap& heights, const CoverSettings& settings,
                                      const std::vector<vision::Detection>& known = {});
 
-/// The share of a box's pixels that move, 0..1.
-float filled_share(const cv::Mat& foreground, const vision::BoxPx& box);
+/// How much of a box moves, for many boxes of one picture.
+class MovingShares {
+  public:
+    MovingShares() = default;
+    explicit MovingShares(const cv::Mat& foreground);
+    /// Of the pixels that are inside the picture, 0..1; 0 where none is.
+    float of(const vision::BoxPx& box) const;
 
-/// Connected regions as they are, for as long as no height is known.
-std::vector<vision::Detection> regions_as_people(const cv::Mat& foreground, float least_height_px);
-
-/// Whether a region looks like one person who stands alone: solid, upright, whole inside the image.
-bool is_lone_person(const vision::Detection& region, const cv::Size& image);
+  private:
+    cv::Mat sums_; ///< over all above and left of each pixel
+};
 
 } // namespace locus::camera

@@ -6,6 +6,8 @@
 
 #include <opencv2/objdetect.hpp>
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace locus::camera {
@@ -21,13 +23,19 @@ struct HogSettings {
 
 class Hog {
   public:
+    /// Whether it is worth looking for a person in that box, which is looked for in pictures of size number `level`.
+    using Wanted = std::function<bool(std::size_t level, const vision::BoxPx& person)>;
+
     explicit Hog(const HogSettings& settings);
 
-    /// Every window that holds a person at least `least_outline_px` high, several for each. The score is the margin of
-    /// the support vector machine.
-    std::vector<vision::Detection> find(const cv::Mat& picture) const;
+    /// Every window that holds a person at least `least_outline_px` high, several for each, where one is wanted and
+    /// close by. The score is the margin of the support vector machine.
+    std::vector<vision::Detection> find(const cv::Mat& picture, const Wanted& wanted) const;
 
   private:
+    void find_in_patch(const cv::Mat& level, const cv::Rect& cells, double factor,
+                       std::vector<vision::Detection>& people) const;
+
     HogSettings settings_;
     cv::HOGDescriptor descriptor_;
 };

@@ -6,6 +6,7 @@
 #include "drivers/camera/foreground.h"
 #include "drivers/camera/height_map.h"
 #include "drivers/camera/people_settings.h"
+#include "drivers/camera/regions.h"
 
 #include <utility>
 
@@ -36,6 +37,7 @@ class MovingPeople {
     /// Takes in a picture; call it for each.
     void look(const cv::Mat& picture) {
         mask_ = foreground_.take(picture);
+        shares_ = MovingShares{mask_};
         lone_.clear();
         if (++pictures_ <= settling_pictures) return;
         lone_ = regions_as_people(mask_, static_cast<float>(settings_.least_height_px));
@@ -50,6 +52,7 @@ class MovingPeople {
     }
     const HeightMap& heights() const { return heights_; }
     const cv::Mat& mask() const { return mask_; }
+    const MovingShares& shares() const { return shares_; }
 
   private:
     static constexpr int settling_pictures = 10; // in which the background's model learns what is noise
@@ -58,6 +61,7 @@ class MovingPeople {
     Foreground foreground_;
     HeightMap heights_;
     cv::Mat mask_;
+    MovingShares shares_;                 ///< of the mask
     std::vector<vision::Detection> lone_; ///< regions that look like one person
     int pictures_ = 0;
 };
