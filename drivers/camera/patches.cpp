@@ -10,8 +10,7 @@ constexpr int near_cells = 8; // a window is 8 cells wide
 cv::Mat1b closed(const cv::Mat1b& marked) {
     cv::Mat1b joined;
     const auto brush = cv::getStructuringElement(cv::MORPH_RECT, {near_cells + 1, near_cells + 1});
-    cv::morphologyEx(marked, joined, cv::MORPH_CLOSE, brush, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-    cv::bitwise_or(joined, marked, joined); // at the border closing forgets
+    cv::morphologyEx(marked, joined, cv::MORPH_CLOSE, brush);
     return joined;
 }
 

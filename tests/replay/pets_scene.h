@@ -1,6 +1,6 @@
 // PETS 2009 S2.L1 as a scene: where the annotated people stand on the floor, four anchors 3 m up, a metre outside the
 // corners of where they walk, what stands in the radio's way (places read off the first image: the lamp post with its
-// sign, and the blue sign on the right), and what a tracker makes of the public detections.
+// sign, and the blue sign on the right), and what a tracker makes of detections.
 #pragma once
 
 #include "config/camera_calibration.h"
@@ -105,8 +105,8 @@ struct PetsImage {
     std::map<std::uint32_t, std::uint32_t> person_of; ///< of a track
 };
 
-inline std::vector<PetsImage> pets_images(const PetsScene& scene) {
-    const auto detections = public_detections(scene.people.size());
+inline std::vector<PetsImage> pets_images(const PetsScene& scene,
+                                          const std::vector<std::vector<vision::Detection>>& detections) {
     vision::Tracker tracker({}, scene.view);
     TrackingScorer scorer;
     std::vector<PetsImage> images;
