@@ -68,7 +68,7 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"unsupported_kind", "this estimator has no use for this kind of measurement"},
     {"not_finite", "the value is not a finite number"},
     {"out_of_reach", "range longer than the anchor can see"},
-    {"late", "arrived after its time had left the window"},
+    {"late", "arrived after its time had left the window (fusion.window_s)"},
     {"stamp_in_future", "stamped later than the present"},
     {"duplicate", "the same sample came twice"},
     {"window_full", "more measurements in the window than it has room for"},

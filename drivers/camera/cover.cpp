@@ -75,26 +75,13 @@ Candidate weigh(const Unexplained& rest, const vision::BoxPx& box, const CoverSe
     return candidate;
 }
 
-template <class Visit>
-void each_place(const Unexplained& rest, const HeightMap& heights, const Visit& visit) {
-    for (int y = 1; y <= rest.size().height;) {
-        int step = 2;
-        for (int x = 0; x < rest.size().width;) {
-            const auto height = heights.at(static_cast<float>(x), static_cast<float>(y));
-            step = height ? std::max(1, static_cast<int>(*height / 24)) : 4;
-            if (height) visit(standing_box(static_cast<float>(x), static_cast<float>(y), *height));
-            x += step;
-        }
-        y += step;
-    }
-}
-
-std::vector<Candidate> candidates(const Unexplained& rest, const HeightMap& heights, const CoverSettings& settings) {
+std::vector<Candidate> candidates(const Unexplained& rest, const std::vector<vision::BoxPx>& places,
+                                  const CoverSettings& settings) {
     std::vector<Candidate> found;
-    each_place(rest, heights, [&](const vision::BoxPx& box) {
+    for (const vision::BoxPx& box : places) {
         const Candidate candidate = weigh(rest, box, settings);
         if (candidate.gain > 0) found.push_back(candidate);
-    });
+    }
     return found;
 }
 
@@ -111,11 +98,11 @@ vision::BoxPx drawn_in(const cv::Mat& foreground, const Candidate& candidate) {
 
 } // namespace
 
-std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap& heights, const CoverSettings& settings,
-                                     const std::vector<vision::Detection>& known) {
+std::vector<vision::Detection> cover(const cv::Mat& foreground, const std::vector<vision::BoxPx>& standing,
+                                     const CoverSettings& settings, const std::vector<vision::Detection>& known) {
     std::vector<vision::Detection> people;
     Unexplained rest{foreground, known};
-    auto places = candidates(rest, heights, settings);
+    auto places = candidates(rest, standing, settings);
     while (!places.empty()) {
         const auto best = std::max_element(places.begin(), places.end(),
                                            [](const Candidate& a, const Candidate& b) { return a.gain < b.gain; });
@@ -129,9 +116,9 @@ std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap&
     return people;
 }
 
-MovingShares::MovingShares(const cv::Mat& foreground) { cv::integral(foreground / 255, sums_, CV_32S); }
+BoxShares::BoxShares(const cv::Mat& foreground) { cv::integral(foreground / 255, sums_, CV_32S); }
 
-float MovingShares::of(const vision::BoxPx& box) const {
+float BoxShares::of(const vision::BoxPx& box) const {
     const cv::Rect rect = sums_.empty() ? cv::Rect{} : to_rect(box, {sums_.cols - 1, sums_.rows - 1});
     return rect.empty() ? 0 : static_cast<float>(sum_in(sums_, rect)) / static_cast<float>(rect.area());
 }

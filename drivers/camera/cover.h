@@ -4,7 +4,7 @@
 // occupancy map", laid greedily). For .cpp files of this room only.
 #pragma once
 
-#include "drivers/camera/height_map.h"
+#include "fusion/vision/detection.h"
 
 #include <opencv2/core.hpp>
 
@@ -19,15 +19,16 @@ struct CoverSettings {
     double least_visible = 0.25; ///< of all its pixels
 };
 
-/// Boxes with their filled share as the score; what the boxes of `known` people explain is left out.
-std::vector<vision::Detection> cover(const cv::Mat& foreground, const HeightMap& heights, const CoverSettings& settings,
-                                     const std::vector<vision::Detection>& known = {});
+/// Of the `standing` boxes those that explain what moves, with their filled share as the score; what the boxes of
+/// `known` people explain is left out.
+std::vector<vision::Detection> cover(const cv::Mat& foreground, const std::vector<vision::BoxPx>& standing,
+                                     const CoverSettings& settings, const std::vector<vision::Detection>& known = {});
 
-/// How much of a box moves, for many boxes of one picture.
-class MovingShares {
+/// How much of a box is marked (moves), for many boxes of one mask.
+class BoxShares {
   public:
-    MovingShares() = default;
-    explicit MovingShares(const cv::Mat& foreground);
+    BoxShares() = default;
+    explicit BoxShares(const cv::Mat& foreground);
     /// Of the pixels that are inside the picture, 0..1; 0 where none is.
     float of(const vision::BoxPx& box) const;
 

@@ -75,6 +75,7 @@ void HeightMap::fit() {
         plane = weighted_fit(weights);
     }
     plane_ = plane;
+    ++fits_;
     least_seen_px_ = most_seen_px_ = static_cast<float>(median_height_px());
     for (std::size_t i = 0; i < samples_.size(); ++i) {
         if (weights[i] < 0.5) continue;

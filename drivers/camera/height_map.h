@@ -21,6 +21,8 @@ class HeightMap {
     /// Empty: not known yet, or nobody can stand there.
     std::optional<float> at(float foot_x_px, float foot_y_px) const;
     bool is_known() const { return calibrated_ || plane_; }
+    /// Another number: other heights.
+    std::size_t revision() const { return fits_; }
 
   private:
     struct Sample {
@@ -39,6 +41,7 @@ class HeightMap {
     std::vector<Sample> samples_;
     std::size_t next_ = 0; ///< where the next sample goes, the oldest first once all places are taken
     std::optional<Plane> plane_;
+    std::size_t fits_ = 0;
     float least_seen_px_ = 0;
     float most_seen_px_ = 0;
 };

@@ -32,8 +32,8 @@ cv::Size windows_in(const cv::Size& level) {
 
 /// Of the window in that column and row of cells, in the picture as it came.
 vision::BoxPx person_in(int column, int row, double factor) {
-    const double middle_px = column * step_px - margin_px + window_width_px / 2;
-    const double foot_px = row * step_px - 2 * margin_px + window_height_px;
+    const int middle_px = column * step_px - margin_px + window_width_px / 2;
+    const int foot_px = row * step_px - 2 * margin_px + window_height_px;
     return standing_box(static_cast<float>(middle_px / factor), static_cast<float>(foot_px / factor),
                         static_cast<float>(person_height_px / factor));
 }
@@ -58,10 +58,14 @@ Hog::Hog(const HogSettings& settings) : settings_{settings} {
     descriptor_.setSVMDetector(cv::HOGDescriptor::getDefaultPeopleDetector());
 }
 
+double Hog::factor_of(std::size_t level) const {
+    return person_height_px / settings_.least_outline_px * std::pow(settings_.scale_step, -static_cast<double>(level));
+}
+
 std::vector<vision::Detection> Hog::find(const cv::Mat& picture, const Wanted& wanted) const {
     std::vector<vision::Detection> people;
-    double factor = person_height_px / settings_.least_outline_px;
-    for (std::size_t number = 0;; ++number, factor /= settings_.scale_step) {
+    for (std::size_t number = 0;; ++number) {
+        const double factor = factor_of(number);
         const cv::Size size = enlarged(picture.size(), factor);
         const cv::Size windows = windows_in(size);
         if (windows.empty()) return people;

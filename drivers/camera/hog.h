@@ -33,6 +33,8 @@ class Hog {
     std::vector<vision::Detection> find(const cv::Mat& picture, const Wanted& wanted) const;
 
   private:
+    /// By which a picture is enlarged for that size of outlines, the smallest first.
+    double factor_of(std::size_t level) const;
     void find_in_patch(const cv::Mat& level, const cv::Rect& cells, double factor,
                        std::vector<vision::Detection>& people) const;
 

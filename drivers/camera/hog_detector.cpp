@@ -19,12 +19,13 @@ class HogDetector : public Detector {
 
     std::vector<vision::Detection> detect(const Picture& picture) override {
         ++pictures_;
+        grid_.refresh(heights_, {picture.width_px, picture.height_px});
         auto found = hog_.find(as_mat(picture), [&](std::size_t level, const auto& box) {
-            return level % turns == pictures_ % turns || is_possible(box, heights_);
+            return level % turns == pictures_ % turns || grid_.is_possible(box);
         });
         const auto most_iou = static_cast<float>(settings_.most_iou);
         for (const auto& person : suppress(found, most_iou)) heights_.learn(person.box);
-        std::erase_if(found, [&](const auto& person) { return !is_possible(person.box, heights_); });
+        std::erase_if(found, [&](const auto& person) { return !grid_.is_possible(person.box); });
         return with_chances(sorting_.sort(picture, suppress_by_vote(found, most_iou)));
     }
 
@@ -32,6 +33,7 @@ class HogDetector : public Detector {
     HogPeopleSettings settings_;
     Hog hog_;
     HeightMap heights_;
+    HeightGrid grid_;
     Sorting sorting_;
     std::size_t pictures_ = 0;
 };

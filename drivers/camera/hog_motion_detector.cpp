@@ -4,9 +4,8 @@
 #include "drivers/camera/mat.h"
 #include "drivers/camera/moving_people.h"
 #include "drivers/camera/suppress.h"
-#include "fusion/vision/box_geometry.h"
 
-#include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 namespace locus::camera {
 namespace {
@@ -30,8 +29,8 @@ constexpr auto hog_motion_options =
 
 /// Outlines are looked for where something moves, where somebody was a picture ago, and everywhere in one size of
 /// `turns` a picture: whoever stands still is found within that many pictures, and then stays.
-constexpr float moving_share = 0.25F; // half of what a walking person fills
-constexpr float same_place_iou = 0.5F;
+constexpr float moving_share = 0.25F;     // half of what a walking person fills
+constexpr float same_place_share = 0.67F; // of a box: half of what two of one size have together
 
 class HogMotionDetector : public Detector {
   public:
@@ -43,10 +42,10 @@ class HogMotionDetector : public Detector {
         moving_.look(image);
         ++pictures_;
         auto people = believed(hog_.find(image, [&](std::size_t level, const auto& box) {
-            return is_possible(box, moving_.heights()) &&
-                   (level % turns == pictures_ % turns || moves(box) || was_there(box));
+            return (level % turns == pictures_ % turns || moves(box) || was_there(box)) &&
+                   moving_.heights().is_possible(box);
         }));
-        outlines_ = people;
+        remember(people, image.size());
         const auto others = moving_.find(people);
         people.insert(people.end(), others.begin(), others.end());
         return with_chances(
@@ -56,9 +55,15 @@ class HogMotionDetector : public Detector {
   private:
     bool moves(const vision::BoxPx& box) const { return moving_.shares().of(box) >= moving_share; }
 
-    bool was_there(const vision::BoxPx& box) const {
-        return std::ranges::any_of(
-            outlines_, [&](const auto& outline) { return vision::iou(outline.box, box) >= same_place_iou; });
+    bool was_there(const vision::BoxPx& box) const { return outlined_.of(box) >= same_place_share; }
+
+    void remember(const std::vector<vision::Detection>& outlines, const cv::Size& picture) {
+        cv::Mat1b mask(picture, 0);
+        for (const auto& outline : outlines)
+            cv::rectangle(
+                mask, cv::Rect2f(outline.box.left_px, outline.box.top_px, outline.box.width_px, outline.box.height_px),
+                255, cv::FILLED);
+        outlined_ = BoxShares{mask};
     }
 
     /// The lower end is the mean of what both witnesses say: outlines come in steps of a twelfth of a person, and
@@ -75,7 +80,7 @@ class HogMotionDetector : public Detector {
     std::vector<vision::Detection> believed(std::vector<vision::Detection> outlines) const {
         std::vector<vision::Detection> people;
         for (auto& outline : outlines) {
-            if (!is_possible(outline.box, moving_.heights())) continue;
+            if (!moving_.heights().is_possible(outline.box)) continue;
             if (!moves(outline.box) && outline.score < settings_.sure_margin) continue;
             outline.score += moving_.shares().of(outline.box);
             people.push_back(std::move(outline));
@@ -89,7 +94,7 @@ class HogMotionDetector : public Detector {
     MovingPeople moving_;
     Hog hog_;
     Sorting sorting_;
-    std::vector<vision::Detection> outlines_; ///< that were believed a picture ago
+    BoxShares outlined_; ///< boxes of those who had an outline a picture ago
     std::size_t pictures_ = 0;
 };
 

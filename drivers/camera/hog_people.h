@@ -2,9 +2,8 @@
 #pragma once
 
 #include "drivers/camera/chance.h"
-#include "drivers/camera/height_map.h"
+#include "drivers/camera/height_grid.h"
 #include "drivers/camera/hog.h"
-#include "drivers/camera/person_shape.h"
 #include "fusion/option.h"
 
 #include <array>
@@ -25,13 +24,6 @@ inline constexpr std::array hog_options{
 };
 /// One size of so many is looked for everywhere in each picture, whatever else is known.
 inline constexpr std::size_t turns = 16;
-
-/// Where no height is known all sizes are possible.
-inline bool is_possible(const vision::BoxPx& box, const HeightMap& heights) {
-    if (!heights.is_known()) return true;
-    const auto expected = heights.at(foot_x_px(box), box.bottom_px());
-    return expected && has_expected_height(box.height_px, *expected);
-}
 
 /// In place of margins; what moves without an outline has the share of its box as its margin.
 inline std::vector<vision::Detection> with_chances(std::vector<vision::Detection> people) {

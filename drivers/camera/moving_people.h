@@ -4,7 +4,7 @@
 
 #include "drivers/camera/cover.h"
 #include "drivers/camera/foreground.h"
-#include "drivers/camera/height_map.h"
+#include "drivers/camera/height_grid.h"
 #include "drivers/camera/people_settings.h"
 #include "drivers/camera/regions.h"
 
@@ -37,22 +37,23 @@ class MovingPeople {
     /// Takes in a picture; call it for each.
     void look(const cv::Mat& picture) {
         mask_ = foreground_.take(picture);
-        shares_ = MovingShares{mask_};
+        shares_ = BoxShares{mask_};
         lone_.clear();
         if (++pictures_ <= settling_pictures) return;
         lone_ = regions_as_people(mask_, static_cast<float>(settings_.least_height_px));
         std::erase_if(lone_, [&](const auto& region) { return !is_lone_person(region, mask_.size()); });
         for (const auto& person : lone_) heights_.learn(person.box);
+        grid_.refresh(heights_, mask_.size());
     }
 
     /// People in what moves beside those that are `known`.
     std::vector<vision::Detection> find(const std::vector<vision::Detection>& known = {}) const {
         if (pictures_ <= settling_pictures) return {};
-        return heights_.is_known() ? cover(mask_, heights_, settings_, known) : lone_;
+        return heights_.is_known() ? cover(mask_, grid_.standing(), settings_, known) : lone_;
     }
-    const HeightMap& heights() const { return heights_; }
+    const HeightGrid& heights() const { return grid_; }
     const cv::Mat& mask() const { return mask_; }
-    const MovingShares& shares() const { return shares_; }
+    const BoxShares& shares() const { return shares_; }
 
   private:
     static constexpr int settling_pictures = 10; // in which the background's model learns what is noise
@@ -60,8 +61,9 @@ class MovingPeople {
     MotionSettings settings_;
     Foreground foreground_;
     HeightMap heights_;
+    HeightGrid grid_;
     cv::Mat mask_;
-    MovingShares shares_;                 ///< of the mask
+    BoxShares shares_;                    ///< of the mask
     std::vector<vision::Detection> lone_; ///< regions that look like one person
     int pictures_ = 0;
 };

@@ -1,7 +1,7 @@
 // What detectors are made of: suppression, regions, looks, heights, and people laid over what moves.
 #include "drivers/camera/appearance.h"
 #include "drivers/camera/cover.h"
-#include "drivers/camera/height_map.h"
+#include "drivers/camera/height_grid.h"
 #include "drivers/camera/mat.h"
 #include "drivers/camera/people_settings.h"
 #include "drivers/camera/person_shape.h"
@@ -113,7 +113,11 @@ class CoverTest : public testing::Test {
         return std::any_of(people_.begin(), people_.end(),
                            [&](const auto& person) { return vision::iou(person.box, box) > 0.6F; });
     }
-    void look(const std::vector<vision::Detection>& known = {}) { people_ = cover(mask_, heights_, {}, known); }
+    void look(const std::vector<vision::Detection>& known = {}) {
+        HeightGrid grid;
+        grid.refresh(heights_, mask_.size());
+        people_ = cover(mask_, grid.standing(), {}, known);
+    }
 
     HeightMap heights_{[](float, float) { return 80.F; }};
     cv::Mat mask_ = cv::Mat::zeros(240, 320, CV_8UC1);
