@@ -30,6 +30,9 @@ constexpr double renewed_ratio = 0.7;
 /// A path drifts by its way, a held error with time: they meet at a walker's pace.
 constexpr double walking_mps = 1;
 constexpr double longest_held_s = 1e6;
+/// The alignment was fitted to the very ranges that the filter hears. How far their errors are the same nobody knows,
+/// so its variance counts as covariance intersection at equal shares has it.
+constexpr double counted_again = 2;
 
 } // namespace
 
@@ -110,7 +113,7 @@ AlignedPlace VisualScale::aligned_place() noexcept {
     const vision::RangeRow& here = path_.here();
     const double drift_m2_s = settings_.drift_m_rtm * settings_.drift_m_rtm * walking_mps;
     const Eigen::Matrix3d covariance_m2 = fit.place_covariance_m2(here.position_odometry, here.velocity_odometry_per_s);
-    renew_error((covariance_m2.diagonal().array() + drift_m2_s).sqrt());
+    renew_error((counted_again * covariance_m2.diagonal().array() + drift_m2_s).sqrt());
     AlignedPlace place;
     place.position_site_m = fit.similarity.place_site_m(here.position_odometry, here.velocity_odometry_per_s);
     place.held_sigma_m = held_sigma_m_;

@@ -18,8 +18,8 @@ namespace locus::papers {
 
 struct SlamNoise {
     double place_m = 0.01;             ///< new with each pose, in the site's metres
-    double stretch_rtm = 0.003;        ///< of the scale's logarithm per root of a metre: 1.5 % after 25 m
-    double turn_rad_rtm = 0.003;       ///< about each axis
+    double stretch_rtm = 0.0015;       ///< of the scale's logarithm per root of a metre: 0.75 % after 25 m
+    double turn_rad_rtm = 0.0015;      ///< about each axis
     double bob_m = 0.03, bob_hz = 1.8; ///< a walker's head goes up and down with each step
 };
 
