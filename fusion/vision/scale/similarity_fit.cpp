@@ -17,6 +17,9 @@ constexpr int most_rounds = 8;
 constexpr double settled = 1e-4; ///< of the scale's logarithm, radians and metres: nobody sees less
 /// Residuals beyond this count linearly, not squared (Huber 1981): 95 % of good ones lie within.
 constexpr double huber_in_sigma = 2;
+constexpr double least_misfit = 1; ///< less is luck: weak fits would be too sure of themselves
+/// Twice as many as unknowns, so that what is left over says how large the noise is.
+constexpr std::size_t least_rows = 18;
 /// A round that turns or stretches by more than this is no correction.
 constexpr double widest_step = 3;
 
@@ -98,7 +101,7 @@ Eigen::Matrix3d SimilarityFit::place_covariance_m2(const Eigen::Vector3d& positi
 
 std::optional<SimilarityFit> fit_similarity(const SimilarityFit& start, std::span<const RangeRow> rows,
                                             const Site& site, const SimilarityFitSettings& settings) noexcept {
-    if (rows.size() < static_cast<std::size_t>(unknowns)) return {};
+    if (rows.size() < least_rows) return {};
     SimilarityFit fit = start;
     Equations sum = equations_of(rows, site, fit, settings);
     for (int round = 0; round < most_rounds; ++round) {
@@ -109,7 +112,8 @@ std::optional<SimilarityFit> fit_similarity(const SimilarityFit& start, std::spa
         sum = equations_of(rows, site, fit, settings);
         if (step.head<7>().norm() < settled) break;
     }
-    fit.misfit = std::max(1.0, sum.squares / static_cast<double>(rows.size()));
+    fit.misfit =
+        std::max(least_misfit, sum.squares / static_cast<double>(rows.size() - static_cast<std::size_t>(unknowns)));
     const Matrix covariance = fit.misfit * sum.matrix.inverse();
     fit.covariance = covariance.topLeftCorner<Similarity::size, Similarity::size>();
     if (!fit.covariance.allFinite()) return {};
