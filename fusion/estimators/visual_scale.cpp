@@ -57,8 +57,9 @@ Verdict VisualScale::see(const VisualOdometry& odometry, const Measurement& meas
     const bool grown = path_.pass(vector(odometry.position_odometry), measurement.time, rows_, together_odometry);
     keep_place(measurement.time);
     if (grown) align();
-    if (!is_aligned()) return {Exclusion::waiting_for_start};
-    const Verdict verdict = fused_.see(aligned_place(), measurement);
+    const vision::SimilarityFit* fit = aligned();
+    if (fit == nullptr) return {Exclusion::waiting_for_start};
+    const Verdict verdict = fused_.see(aligned_place(*fit), measurement);
     doubt(verdict);
     return verdict;
 }
@@ -81,7 +82,7 @@ void VisualScale::align_anew() noexcept {
 }
 
 void VisualScale::keep_place(Timestamp time) noexcept {
-    if (is_aligned() || (kept_.has_value() && to_s(time - kept_.value()) < least_gap_s)) return;
+    if (aligned() != nullptr || (kept_.has_value() && to_s(time - kept_.value()) < least_gap_s)) return;
     const Estimate heard = heard_.predict(time);
     if (heard.missing != Missing::nothing) return;
     const double variance_m2 = heard.covariance[0] + heard.covariance[7] + heard.covariance[14];
@@ -91,8 +92,8 @@ void VisualScale::keep_place(Timestamp time) noexcept {
 
 /// From the fit before, once it is sure; until then each from nothing.
 void VisualScale::align() noexcept {
-    if (is_aligned()) {
-        fit_ = vision::fit_similarity(fit_.value(), rows_.all(), *site_, fit_settings(settings_));
+    if (const vision::SimilarityFit* before = aligned()) {
+        fit_ = vision::fit_similarity(*before, rows_.all(), *site_, fit_settings(settings_));
         return;
     }
     const auto start = vision::start_of_similarity(places_.all());
@@ -103,13 +104,15 @@ void VisualScale::align() noexcept {
     fit_ = vision::fit_similarity(rough, rows_.all(), *site_, fit_settings(settings_));
 }
 
-bool VisualScale::is_aligned() const noexcept {
-    return fit_.has_value() && fit_->relative_scale_sigma() < settings_.aligned_below;
+/// The fit, once it may go into the pose.
+const vision::SimilarityFit* VisualScale::aligned() const noexcept {
+    if (!fit_) return nullptr;
+    const vision::SimilarityFit& fit = *fit_;
+    return fit.relative_scale_sigma() < settings_.aligned_below ? &fit : nullptr;
 }
 
 /// The held error grows at first as the path drifts: a wandering error does so by 2 sigma^2 / time.
-AlignedPlace VisualScale::aligned_place() noexcept {
-    const vision::SimilarityFit& fit = fit_.value();
+AlignedPlace VisualScale::aligned_place(const vision::SimilarityFit& fit) noexcept {
     const vision::RangeRow& here = path_.here();
     const double drift_m2_s = settings_.drift_m_rtm * settings_.drift_m_rtm * walking_mps;
     const Eigen::Matrix3d covariance_m2 = fit.place_covariance_m2(here.position_odometry, here.velocity_odometry_per_s);

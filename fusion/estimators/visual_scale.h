@@ -34,8 +34,8 @@ class VisualScale final : public Estimator {
     void begin_segment(const VisualOdometry& odometry) noexcept;
     void keep_place(Timestamp time) noexcept;
     void align() noexcept;
-    bool is_aligned() const noexcept;
-    AlignedPlace aligned_place() noexcept;
+    const vision::SimilarityFit* aligned() const noexcept;
+    AlignedPlace aligned_place(const vision::SimilarityFit& fit) noexcept;
     void renew_error(const Eigen::Vector3d& sigma_m) noexcept;
     void doubt(const Verdict& verdict) noexcept;
     void align_anew() noexcept;
