@@ -39,7 +39,9 @@ struct WhomItConcerns {
     }
     Deliveries operator()(const ImuSample& o) const { return one(o.tag, SourceKind::imu, o.tag); }
     Deliveries operator()(const FootPoint& o) const { return one({}, SourceKind::camera, o.camera); }
-    Deliveries operator()(const VisualOdometry& o) const { return one({}, SourceKind::camera, o.camera); }
+    Deliveries operator()(const VisualOdometry& o) const {
+        return one(o.tag == no_address ? Tag{} : Tag{o.tag}, SourceKind::camera, o.camera);
+    }
     Deliveries operator()(const GnssFix& o) const { return one(o.tag, SourceKind::input, this_input()); }
     Deliveries operator()(const GnssRaw& o) const { return one(o.tag, SourceKind::satellite, satellite_address(o)); }
     Deliveries operator()(const WheelSpeed& o) const { return one(o.tag, SourceKind::vehicle, o.tag); }

@@ -110,6 +110,7 @@ struct VisualOdometry {
     std::uint32_t segment = 0;
     Vec3 position_odometry{};
     std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
+    Address tag = no_address; ///< of who wears the camera
 };
 
 /// What GnssFix::fix_type says: the numbers of u-blox, and after them the finer ones that receivers tell.

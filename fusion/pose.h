@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <string_view>
+#include <type_traits>
 
 namespace locus {
 
@@ -35,6 +38,12 @@ constexpr std::string_view missing_sentence(Missing missing) {
     return missing_sentences[static_cast<std::size_t>(missing)];
 }
 
+/// What is known of the scale of a monocular odometry that goes into a pose.
+struct OdometryScale {
+    double metres_per_unit = std::numeric_limits<double>::quiet_NaN(); ///< NaN: unknown
+    float relative_sigma = unknown_f;                                  ///< its bound, also while it is unknown
+};
+
 /// An estimator's state as seen from outside, at one time, site frame (right-handed, z up).
 struct Estimate {
     Timestamp time{};
@@ -45,6 +54,7 @@ struct Estimate {
     std::array<double, 36> covariance{};
     std::uint32_t kinds_used = 0; ///< bit i: Observation alternative i went in within the last second
     std::uint32_t reset_count = 0;
+    OdometryScale odometry_scale;
     Missing missing = Missing::measurements; ///< not `nothing`: the other fields mean nothing
 };
 

@@ -59,6 +59,20 @@ void append_kinds(std::string& out, std::uint32_t kinds_used) {
     out += ']';
 }
 
+/// The number only where it is known; its bound wherever there is one.
+void append_scale(std::string& out, const OdometryScale& scale) {
+    if (!std::isfinite(scale.relative_sigma)) return;
+    out += R"(,"odometry_scale":{)";
+    if (std::isfinite(scale.metres_per_unit)) {
+        out += R"("metres_per_unit":)";
+        append_general(out, scale.metres_per_unit);
+        out += ',';
+    }
+    out += R"("relative_sigma":)";
+    append_general(out, double{scale.relative_sigma});
+    out += '}';
+}
+
 } // namespace
 
 bool is_publishable(const Pose& pose) {
@@ -86,6 +100,7 @@ std::string open_pose_line(const Pose& pose, std::string_view target, std::uint3
     append_bound(out, "vertical_error_95_m", pose.vertical_error_95_m);
     append_estimator(out, pose.estimator);
     append_kinds(out, estimate.kinds_used);
+    append_scale(out, estimate.odometry_scale);
     out += ",\"reset_count\":" + std::to_string(reset_count);
     return out;
 }

@@ -1,6 +1,6 @@
 // The one table of what each Measurement kind holds: the JSON writer and the reader both walk it, so they cannot
 // disagree. A visitor has must(name, value) for what every sample has, and may(name, value) for what a device need not
-// say (unknown: NaN, or LineOfSight::unknown). Names are those of fusion/measurement.h.
+// say (unknown: NaN, LineOfSight::unknown or no_address). Names are those of fusion/measurement.h.
 #pragma once
 
 #include "fusion/measurement.h"
@@ -86,6 +86,7 @@ void visit_fields(Visitor& visit, Kind& odometry) {
     visit.must("segment", odometry.segment);
     visit.must("position_odometry", odometry.position_odometry);
     visit.must("orientation_xyzw", odometry.orientation_xyzw);
+    visit.may("tag", odometry.tag);
 }
 
 template <class Visitor, Of<GnssFix> Kind>

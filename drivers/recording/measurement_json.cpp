@@ -27,6 +27,9 @@ class Writer {
     void may(std::string_view name, LineOfSight value) {
         if (value != LineOfSight::unknown) must(name, value);
     }
+    void may(std::string_view name, Address value) {
+        if (value != no_address) must(name, value);
+    }
     template <class T>
     void may(std::string_view name, const T& value) {
         must(name, value);

@@ -16,4 +16,9 @@ constexpr std::int32_t feet(Address camera, int axis) {
     return 0x20000 + 2 * static_cast<std::int32_t>(number(camera) % 1024) + axis;
 }
 
+/// Of a SLAM's path as it was aligned with the site; `alignment` counts how often it was aligned anew.
+constexpr std::int32_t odometry(std::uint32_t alignment, int axis) {
+    return 0x40000 + 3 * static_cast<std::int32_t>(alignment % 1024) + axis;
+}
+
 } // namespace locus::carried

@@ -30,10 +30,22 @@ Verdict InertialEkf::update(const Measurement& measurement) noexcept {
     const Verdict plain = plain_.update(measurement, !sensed_);
     if (!sensed_) return plain;
     const Verdict aided = aided_.update(measurement);
-    compare(plain, aided, to_s(measurement.time - compared_));
-    compared_ = measurement.time;
-    turn_to_the_better(measurement.time);
+    weigh_up(plain, aided, measurement.time);
     return aided_share_ > 0.5 ? aided : plain;
+}
+
+Verdict InertialEkf::see(const AlignedPlace& place, const Measurement& odometry) noexcept {
+    const Verdict plain = plain_.see(place, odometry, !sensed_);
+    if (!sensed_) return plain;
+    const Verdict aided = aided_.see(place, odometry);
+    weigh_up(plain, aided, odometry.time);
+    return aided_share_ > 0.5 ? aided : plain;
+}
+
+void InertialEkf::weigh_up(const Verdict& plain, const Verdict& aided, Timestamp time) noexcept {
+    compare(plain, aided, to_s(time - compared_));
+    compared_ = time;
+    turn_to_the_better(time);
 }
 
 Verdict InertialEkf::sense(const Measurement& measurement) noexcept {

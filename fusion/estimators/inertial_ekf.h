@@ -15,6 +15,8 @@ class InertialEkf final : public Estimator {
     InertialEkf(const Site& site, const InertialEkfSettings& settings);
 
     Verdict update(const Measurement& measurement) noexcept override;
+    /// A SLAM's path as somebody has aligned it with the site; `odometry` is the measurement that it was.
+    Verdict see(const AlignedPlace& place, const Measurement& odometry) noexcept;
     Estimate predict(Timestamp time) const noexcept override;
     std::unique_ptr<Estimator> clone() const override { return std::make_unique<InertialEkf>(*this); }
     void copy_from(const Estimator& other) noexcept override { *this = static_cast<const InertialEkf&>(other); }
@@ -23,6 +25,7 @@ class InertialEkf final : public Estimator {
     const NavTrack& track() const noexcept { return aided_.track(); }
 
   private:
+    void weigh_up(const Verdict& plain, const Verdict& aided, Timestamp time) noexcept;
     Verdict sense(const Measurement& measurement) noexcept;
     void compare(const Verdict& plain, const Verdict& aided, double dt_s) noexcept;
     void turn_to_the_better(Timestamp time) noexcept;
@@ -47,7 +50,7 @@ class InertialEkf final : public Estimator {
 
 std::unique_ptr<Estimator> make_inertial_ekf(const Site& site, const void* settings);
 
-inline constexpr auto inertial_ekf_options = joined(range_options<InertialEkfSettings>, inertial_only_options);
+inline constexpr auto inertial_ekf_options = inertial_options<InertialEkfSettings>;
 
 inline constexpr EstimatorRow inertial_ekf_row{
     "inertial_ekf",

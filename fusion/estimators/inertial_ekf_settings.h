@@ -49,62 +49,67 @@ struct InertialEkfSettings : RangeEkfSettings {
     double tag_height_time_s = 60;
 };
 
+template <class Settings>
 inline constexpr std::array inertial_only_options{
-    option<&InertialEkfSettings::use_imu>("use_imu", "Whether samples of an inertial sensor are used."),
-    option<&InertialEkfSettings::antenna_body_m>(
+    option<&InertialEkfSettings::use_imu, Settings>("use_imu", "Whether samples of an inertial sensor are used."),
+    option<&InertialEkfSettings::antenna_body_m, Settings>(
         "antenna_body_m", "m", -100, 100,
         "From the inertial sensor to the tag's antenna, along the sensor's axes: [x, y, z]."),
-    option<&InertialEkfSettings::acceleration_noise_mps2_rthz>(
+    option<&InertialEkfSettings::acceleration_noise_mps2_rthz, Settings>(
         "acceleration_noise_mps2_rthz", "m/s^2/sqrt(Hz)", 1e-6, 100,
         "Density of the accelerometer's noise where it is mounted, vibration included."),
-    option<&InertialEkfSettings::angular_rate_noise_radps_rthz>(
+    option<&InertialEkfSettings::angular_rate_noise_radps_rthz, Settings>(
         "angular_rate_noise_radps_rthz", "rad/s/sqrt(Hz)", 1e-8, 10,
         "Density of the gyroscope's noise where it is mounted, vibration included."),
-    option<&InertialEkfSettings::acceleration_bias_sigma_mps2>("acceleration_bias_sigma_mps2", "m/s^2", 0, 20,
-                                                               "Bias that the accelerometer may have at the start."),
-    option<&InertialEkfSettings::acceleration_bias_walk_mps2_rts>("acceleration_bias_walk_mps2_rts", "m/s^2/sqrt(s)", 0,
-                                                                  20, "How much that bias changes with time."),
-    option<&InertialEkfSettings::angular_rate_bias_sigma_radps>("angular_rate_bias_sigma_radps", "rad/s", 0, 1,
-                                                                "Bias that the gyroscope may have at the start."),
-    option<&InertialEkfSettings::angular_rate_bias_walk_radps_rts>("angular_rate_bias_walk_radps_rts", "rad/s/sqrt(s)",
-                                                                   0, 1, "How much that bias changes with time."),
-    option<&InertialEkfSettings::aligning_noise_mps2_rthz>(
+    option<&InertialEkfSettings::acceleration_bias_sigma_mps2, Settings>(
+        "acceleration_bias_sigma_mps2", "m/s^2", 0, 20, "Bias that the accelerometer may have at the start."),
+    option<&InertialEkfSettings::acceleration_bias_walk_mps2_rts, Settings>(
+        "acceleration_bias_walk_mps2_rts", "m/s^2/sqrt(s)", 0, 20, "How much that bias changes with time."),
+    option<&InertialEkfSettings::angular_rate_bias_sigma_radps, Settings>(
+        "angular_rate_bias_sigma_radps", "rad/s", 0, 1, "Bias that the gyroscope may have at the start."),
+    option<&InertialEkfSettings::angular_rate_bias_walk_radps_rts, Settings>(
+        "angular_rate_bias_walk_radps_rts", "rad/s/sqrt(s)", 0, 1, "How much that bias changes with time."),
+    option<&InertialEkfSettings::aligning_noise_mps2_rthz, Settings>(
         "aligning_noise_mps2_rthz", "m/s^2/sqrt(Hz)", 0.01, 100,
         "Noise of the acceleration while the sensor's heading is being found; tilt errors included."),
-    option<&InertialEkfSettings::zero_velocity>(
+    option<&InertialEkfSettings::zero_velocity, Settings>(
         "zero_velocity", "Whether a sensor that lies still means that the target stands; not for lifts."),
-    option<&InertialEkfSettings::foot_mounted>(
+    option<&InertialEkfSettings::foot_mounted, Settings>(
         "foot_mounted", "Whether the sensor is worn on a foot, which stands still in every step (zero_velocity too)."),
-    option<&InertialEkfSettings::dead_reckoning_s>(
+    option<&InertialEkfSettings::dead_reckoning_s, Settings>(
         "dead_reckoning_s", "s", 0, 3600, "How long the inertial sensor alone carries a pose, without any range."),
-    option<&InertialEkfSettings::steady_acceleration_sigma_mps2>(
+    option<&InertialEkfSettings::steady_acceleration_sigma_mps2, Settings>(
         "steady_acceleration_sigma_mps2", "m/s^2", 0, 1000,
         "Acceleration of a target that moves steadily or stands, a second model beside the first; 0: none."),
-    option<&InertialEkfSettings::steady_acceleration_time_s>("steady_acceleration_time_s", "s", 0.01, 1e4,
-                                                             "Time in which such an acceleration dies away."),
-    option<&InertialEkfSettings::steady_for_s>("steady_for_s", "s", 0.01, 1e6,
-                                               "How long a target keeps to one of the two models on average."),
-    option<&InertialEkfSettings::height_sigma_m>("height_sigma_m", "m", 0.001, 100,
-                                                 "Noise of a height whose device states none."),
-    option<&InertialEkfSettings::height_error_sigma_m>(
+    option<&InertialEkfSettings::steady_acceleration_time_s, Settings>("steady_acceleration_time_s", "s", 0.01, 1e4,
+                                                                       "Time in which such an acceleration dies away."),
+    option<&InertialEkfSettings::steady_for_s, Settings>(
+        "steady_for_s", "s", 0.01, 1e6, "How long a target keeps to one of the two models on average."),
+    option<&InertialEkfSettings::height_sigma_m, Settings>("height_sigma_m", "m", 0.001, 100,
+                                                           "Noise of a height whose device states none."),
+    option<&InertialEkfSettings::height_error_sigma_m, Settings>(
         "height_error_sigma_m", "m", 0, 100, "Error of a height that stays for a while (the floor is not flat)."),
-    option<&InertialEkfSettings::height_error_time_s>("height_error_time_s", "s", 0.01, 1e6,
-                                                      "Time in which that error becomes another one."),
-    option<&InertialEkfSettings::height_offset_m>("height_offset_m", "m", -100, 100,
-                                                  "What the height sensor tells less the height of the antenna."),
-    option<&InertialEkfSettings::speed_sigma_of_wheel_mps>("speed_sigma_of_wheel_mps", "m/s", 0.001, 100,
-                                                           "Noise of a wheel speed whose device states none."),
-    option<&InertialEkfSettings::foot_error_sigma_m>(
+    option<&InertialEkfSettings::height_error_time_s, Settings>("height_error_time_s", "s", 0.01, 1e6,
+                                                                "Time in which that error becomes another one."),
+    option<&InertialEkfSettings::height_offset_m, Settings>(
+        "height_offset_m", "m", -100, 100, "What the height sensor tells less the height of the antenna."),
+    option<&InertialEkfSettings::speed_sigma_of_wheel_mps, Settings>(
+        "speed_sigma_of_wheel_mps", "m/s", 0.001, 100, "Noise of a wheel speed whose device states none."),
+    option<&InertialEkfSettings::foot_error_sigma_m, Settings>(
         "foot_error_sigma_m", "m", 0, 100,
         "How far the feet that a camera sees lie beside the tag for a while, beyond the camera's own doubt."),
-    option<&InertialEkfSettings::foot_error_time_s>("foot_error_time_s", "s", 0.01, 1e6,
-                                                    "Time in which that error becomes another one."),
-    option<&InertialEkfSettings::tag_height_m>("tag_height_m", "m", -100, 100,
-                                               "Height above the floor at which whom a camera sees wears his tag."),
-    option<&InertialEkfSettings::tag_height_sigma_m>("tag_height_sigma_m", "m", 0, 100,
-                                                     "Doubt in that height; 0: a camera says nothing of it."),
-    option<&InertialEkfSettings::tag_height_time_s>("tag_height_time_s", "s", 0.01, 1e6,
-                                                    "Time in which it becomes another one (the tag is taken in hand)."),
+    option<&InertialEkfSettings::foot_error_time_s, Settings>("foot_error_time_s", "s", 0.01, 1e6,
+                                                              "Time in which that error becomes another one."),
+    option<&InertialEkfSettings::tag_height_m, Settings>(
+        "tag_height_m", "m", -100, 100, "Height above the floor at which whom a camera sees wears his tag."),
+    option<&InertialEkfSettings::tag_height_sigma_m, Settings>("tag_height_sigma_m", "m", 0, 100,
+                                                               "Doubt in that height; 0: a camera says nothing of it."),
+    option<&InertialEkfSettings::tag_height_time_s, Settings>(
+        "tag_height_time_s", "s", 0.01, 1e6, "Time in which it becomes another one (the tag is taken in hand)."),
 };
+
+/// `Settings`: those of an estimator that has InertialEkfSettings as a base.
+template <class Settings>
+inline constexpr auto inertial_options = joined(range_options<Settings>, inertial_only_options<Settings>);
 
 } // namespace locus

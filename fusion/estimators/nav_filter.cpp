@@ -41,7 +41,8 @@ double variance(float stated_sigma, double otherwise) {
 NavFilter::NavFilter(const Site& site, const InertialEkfSettings& settings)
     : RangeFilter(site, settings, NavTrack(nav_model(settings))), settings_(settings),
       height_robust_(settings.robust_scale), speed_robust_(settings.robust_scale),
-      standstill_robust_(settings.robust_scale), foot_robust_(settings.robust_scale) {}
+      standstill_robust_(settings.robust_scale), foot_robust_(settings.robust_scale),
+      place_robust_(settings.robust_scale) {}
 
 Verdict NavFilter::update(const Measurement& measurement) noexcept {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) return take(*imu, measurement.time);

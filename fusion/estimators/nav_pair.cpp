@@ -38,16 +38,25 @@ NavPair::NavPair(const Site& site, const InertialEkfSettings& settings)
       is_pair_(settings.steady_acceleration_sigma_mps2 > 0) {}
 
 Verdict NavPair::update(const Measurement& measurement, bool both) noexcept {
-    const Verdict brisk = brisk_.update(measurement);
+    return hear([&](NavFilter& filter) { return filter.update(measurement); }, measurement.time, both);
+}
+
+Verdict NavPair::see(const AlignedPlace& place, const Measurement& odometry, bool both) noexcept {
+    return hear([&](NavFilter& filter) { return filter.see(place, odometry); }, odometry.time, both);
+}
+
+template <class Tell>
+Verdict NavPair::hear(const Tell& tell, Timestamp time, bool both) noexcept {
+    const Verdict brisk = tell(brisk_);
     const bool pairs = is_pair_ && both && brisk_.has_position();
     if (!pairs || !paired_ || steady_.reset_count() != brisk_.reset_count()) {
         if (pairs) steady_.go_with(brisk_);
         paired_ = pairs;
-        mixed_ = measurement.time;
+        mixed_ = time;
         return brisk;
     }
-    learn(brisk, steady_.update(measurement));
-    interact(measurement.time);
+    learn(brisk, tell(steady_));
+    interact(time);
     return brisk;
 }
 

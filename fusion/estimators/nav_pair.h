@@ -15,11 +15,15 @@ class NavPair {
 
     /// `both`: or the brisk one goes on alone.
     Verdict update(const Measurement& measurement, bool both) noexcept;
+    Verdict see(const AlignedPlace& place, const Measurement& odometry, bool both) noexcept;
     Estimate predict(Timestamp time) const noexcept;
 
     const NavFilter& brisk() const noexcept { return brisk_; }
 
   private:
+    /// `tell` gives one filter what there is to hear.
+    template <class Tell>
+    Verdict hear(const Tell& tell, Timestamp time, bool both) noexcept;
     void interact(Timestamp time) noexcept;
     void learn(const Verdict& brisk, const Verdict& steady) noexcept;
 

@@ -70,6 +70,11 @@ TEST(PoseLine, SaysByWhichCameraItIsSeen) {
     const json line = closed(open_pose_line(pose, roster.names, 0));
     EXPECT_EQ(line["target"], "forklift");
     EXPECT_EQ(line["seen_as"], (json{{"camera", "gate"}, {"track", 12}, {"confidence", 0.875}}));
+    EXPECT_FALSE(line.contains("odometry_scale"));
+    pose.estimate.odometry_scale.relative_sigma = 0.25F;
+    EXPECT_EQ(closed(open_pose_line(pose, roster.names, 0))["odometry_scale"], (json{{"relative_sigma", 0.25}}));
+    pose.estimate.odometry_scale.metres_per_unit = 2.5;
+    EXPECT_EQ(closed(open_pose_line(pose, roster.names, 0))["odometry_scale"]["metres_per_unit"], 2.5);
     pose.target = vision::anonymous_address(address(0), 1);
     EXPECT_EQ(closed(open_pose_line(pose, roster.names, 0))["target"], "anonymous-1-2");
 }
