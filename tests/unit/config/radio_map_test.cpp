@@ -59,7 +59,7 @@ TEST(RadioMapFile, ReadsBackWhatWasWritten) {
 TEST(RadioMapFile, SaysWhatIsWrong) {
     EXPECT_EQ(first_problem(small_map), "");
     EXPECT_EQ(first_problem(with("-50.5", "-500")),
-              "map.yaml:5:50: mean_dbm is -500; it must be between -150 dBm and 30 dBm");
+              "map.yaml:5:49: mean_dbm is -500; it must be between -150 dBm and 30 dBm");
     EXPECT_NE(first_problem(with("[0x11, -71]", "[0x10, -71]")).find("beacon 16 stands here twice"), std::string::npos);
     EXPECT_NE(first_problem(with("[0x11, -71]", "[0x11]")).find("a strength must be a list"), std::string::npos);
     EXPECT_NE(first_problem(with("device", "devise")).find("device"), std::string::npos);
@@ -88,7 +88,7 @@ TEST(RadioMapFile, IsReplacedWhole) {
 TEST(RadioMapFile, IsReadBesideTheSettings) {
     const test::TemporaryFolder folder;
     const std::string settings = folder / "locusd.yaml";
-    std::ofstream(settings) << "site: {name: hall}\nestimators: {radio_particles: {map: hall-map.yaml}}\n";
+    std::ofstream{settings} << "site: {name: hall}\nestimators: {radio_particles: {map: hall-map.yaml}}\n";
     const LoadResult without = load_settings(settings);
     ASSERT_FALSE(without.settings.has_value());
     EXPECT_NE(to_string(without.problems.front()).find("hall-map.yaml: there is no such file"), std::string::npos);

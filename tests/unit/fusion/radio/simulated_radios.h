@@ -59,6 +59,8 @@ class SimulatedRadios {
         return map;
     }
 
+    const std::vector<Eigen::Vector2d>& beacons_m() const { return beacons_m_; }
+
     radio::PathLoss loss{-45, 2.2, 4};
 
   private:
