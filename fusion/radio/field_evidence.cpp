@@ -42,20 +42,49 @@ std::vector<Eigen::Index> every_so_many(Eigen::Index all, Eigen::Index most) {
     return chosen;
 }
 
+/// Who walks past a point in a second or two does not hear all that could be heard there: a beacon that is missing at a
+/// point but was heard within `hole_spacings` counts as strong as there, each by its distance. Farther from all who
+/// heard it, it is as weak as the hearing floor.
+double strength_in_hole(const FloorPoints& points_m, const Eigen::VectorXd& heard_dbm, Eigen::Index hole,
+                        double reach_m, double floor_dbm) {
+    double sum = 0, weights = 0;
+    for (Eigen::Index i = 0; i < heard_dbm.size(); ++i) {
+        const double distance_m = (points_m.row(i) - points_m.row(hole)).norm();
+        if (std::isnan(heard_dbm(i)) || distance_m > reach_m) continue;
+        const double weight = 1 / (distance_m * distance_m + 1e-6);
+        sum += weight * heard_dbm(i);
+        weights += weight;
+    }
+    return weights > 0 ? sum / weights : floor_dbm;
+}
+
+Eigen::VectorXd strengths_of(const RadioMap& map, Address beacon, const FloorPoints& points_m) {
+    constexpr double hole_spacings = 2.5;
+    Eigen::VectorXd heard_dbm(points_m.rows());
+    for (Eigen::Index i = 0; i < heard_dbm.size(); ++i) {
+        const Strength* strength = find(map.points[static_cast<std::size_t>(i)], beacon);
+        heard_dbm(i) = strength != nullptr ? strength->mean_dbm : std::nan("");
+    }
+    Eigen::VectorXd all_dbm = heard_dbm;
+    const double reach_m = hole_spacings * point_spacing_m(map), floor_dbm = hearing_floor_dbm(map);
+    for (Eigen::Index i = 0; i < all_dbm.size(); ++i)
+        if (std::isnan(heard_dbm(i))) all_dbm(i) = strength_in_hole(points_m, heard_dbm, i, reach_m, floor_dbm);
+    return all_dbm;
+}
+
 } // namespace
 
 FieldData field_data(const RadioMap& map, const std::vector<Address>& beacons) {
     const auto count = static_cast<Eigen::Index>(map.points.size());
     FieldData data;
     data.points_m.resize(count, 2);
-    data.strengths_dbm.setConstant(count, static_cast<Eigen::Index>(beacons.size()), hearing_floor_dbm(map));
+    data.strengths_dbm.resize(count, static_cast<Eigen::Index>(beacons.size()));
     for (Eigen::Index i = 0; i < count; ++i) {
-        const ReferencePoint& point = map.points[static_cast<std::size_t>(i)];
-        data.points_m.row(i) << point.position_site_m[0], point.position_site_m[1];
-        for (std::size_t b = 0; b < beacons.size(); ++b)
-            if (const Strength* strength = find(point, beacons[b]))
-                data.strengths_dbm(i, static_cast<Eigen::Index>(b)) = strength->mean_dbm;
+        const Vec3& place = map.points[static_cast<std::size_t>(i)].position_site_m;
+        data.points_m.row(i) << place[0], place[1];
     }
+    for (std::size_t b = 0; b < beacons.size(); ++b)
+        data.strengths_dbm.col(static_cast<Eigen::Index>(b)) = strengths_of(map, beacons[b], data.points_m);
     data.sources_m = sources_over(data.points_m);
     add_bases(data);
     return data;

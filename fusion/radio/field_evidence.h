@@ -9,7 +9,7 @@
 
 namespace locus::radio {
 
-/// A map as matrices. Who was not heard at a point stands there with the hearing floor.
+/// A map as matrices. Who was not heard anywhere near a point stands there with the hearing floor.
 struct FieldData {
     FloorPoints points_m;
     Eigen::MatrixXd strengths_dbm;          ///< points x beacons

@@ -22,7 +22,8 @@ FloorBelief FloorPosterior::solve(const StrengthGrid& grid, std::span<const Inde
     float most = -std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < weights_.size(); ++i) {
         const Eigen::Vector2f place = grid.cells().place_site_m(i).cast<float>();
-        weights_[i] = static_cast<float>(log_likelihood(grid, readings, place.x(), place.y()));
+        const double log = log_likelihood(grid, readings, place.x(), place.y());
+        weights_[i] = static_cast<float>(log) + grid.prior(i);
         most = std::max(most, weights_[i]);
     }
     double sum = 0;

@@ -1,5 +1,5 @@
-// Where on a floor somebody is who hears this: Bayes' rule over the corners of a strength grid, every place as likely
-// before. For a first position, for a filter that lost its way, and for single fingerprints.
+// Where on a floor somebody is who hears this: Bayes' rule over the corners of a strength grid and its prior. For a
+// first position, for a filter that lost its way, and for single fingerprints.
 #pragma once
 
 #include "fusion/radio/strength_grid.h"

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace locus::radio {
@@ -137,6 +138,21 @@ std::vector<Address> beacons_for(const RadioMap& map) {
     return beacons;
 }
 
+/// A survey goes where people go: the farther from its points, the less likely is anybody, by a bell of a few spacings.
+void set_priors(const RadioMap& map, StrengthGrid& grid) {
+    constexpr double prior_spacings = 3;
+    const double reach_m = prior_spacings * point_spacing_m(map);
+    for (std::size_t corner = 0; corner < grid.cells().count(); ++corner) {
+        const Eigen::Vector2d place = grid.cells().place_site_m(corner);
+        double nearest_m = std::numeric_limits<double>::infinity();
+        for (const ReferencePoint& point : map.points)
+            nearest_m = std::min(
+                nearest_m, std::hypot(point.position_site_m[0] - place.x(), point.position_site_m[1] - place.y()));
+        const double reaches = nearest_m / reach_m;
+        grid.set_prior(corner, static_cast<float>(-0.5 * reaches * reaches));
+    }
+}
+
 } // namespace
 
 FloorCells cells_of(const RadioMap& map, std::size_t most_corners) {
@@ -170,6 +186,7 @@ StrengthGrid gaussian_field(const RadioMap& map, const FieldSettings& settings) 
                      {static_cast<float>(mean), static_cast<float>(variance)});
         }
     grid.finish(settings.lost_share);
+    set_priors(map, grid);
     return grid;
 }
 

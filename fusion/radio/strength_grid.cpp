@@ -37,6 +37,7 @@ StrengthGrid::StrengthGrid(const FloorCells& cells, std::vector<Address> beacons
     variance_db2_.assign(mean_dbm_.size(), 1);
     silence_.assign(mean_dbm_.size(), 0);
     silence_of_all_.assign(cells.count(), 0);
+    prior_.assign(cells.count(), 0);
 }
 
 void StrengthGrid::set(std::size_t beacon, std::size_t corner, const Expected& expected) noexcept {

@@ -52,6 +52,10 @@ class StrengthGrid {
     /// heard in a scan.
     void finish(double lost_share) noexcept;
 
+    /// Logarithm of how likely somebody is at a corner before anything is heard, up to a constant; 0 unless set.
+    void set_prior(std::size_t corner, float log_likelihood) noexcept { prior_[corner] = log_likelihood; }
+    float prior(std::size_t corner) const noexcept { return prior_[corner]; }
+
     /// Places outside are taken to the edge.
     Expected at(std::size_t beacon, float x_site_m, float y_site_m) const noexcept;
     /// Logarithm of the chance that it is not heard in a scan: it is weaker than the hearing floor, or lost.
@@ -74,7 +78,7 @@ class StrengthGrid {
     FloorCells cells_;
     std::vector<Address> beacons_;
     double floor_dbm_;
-    std::vector<float> mean_dbm_, variance_db2_, silence_, silence_of_all_;
+    std::vector<float> mean_dbm_, variance_db2_, silence_, silence_of_all_, prior_;
 };
 
 } // namespace locus::radio
