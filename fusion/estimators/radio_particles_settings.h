@@ -67,8 +67,9 @@ inline constexpr std::array radio_particles_options{
                                              "Without a map: how far beyond the outermost anchors somebody may be."),
     option<&RadioParticlesSettings::scan_s>("scan_s", "s", 0.05, 60,
                                             "Time in which a receiver hears every beacon in reach at least once."),
-    option<&RadioParticlesSettings::lost_share>("lost_share", "", 0.001, 0.9,
-                                                "Chance that a beacon in reach is not heard in that time."),
+    option<&RadioParticlesSettings::lost_share>(
+        "lost_share", "", 0.001, 0.9,
+        "Least chance that a beacon in reach is not heard in that time; a map with holes raises it."),
     option<&RadioParticlesSettings::outlier_share>("outlier_share", "", 0.001, 0.9,
                                                    "Chance of a reading that fits neither map nor model."),
     option<&RadioParticlesSettings::held_error_time_s>(

@@ -43,7 +43,7 @@ std::vector<Eigen::Index> every_so_many(Eigen::Index all, Eigen::Index most) {
 }
 
 /// Who walks past a point in a second or two does not hear all that could be heard there: a beacon that is missing at a
-/// point but was heard within `hole_spacings` counts as strong as there, each by its distance. Farther from all who
+/// point but was heard within hole_reach_m() counts as strong as there, each by its distance. Farther from all who
 /// heard it, it is as weak as the hearing floor.
 double strength_in_hole(const FloorPoints& points_m, const Eigen::VectorXd& heard_dbm, Eigen::Index hole,
                         double reach_m, double floor_dbm) {
@@ -59,14 +59,13 @@ double strength_in_hole(const FloorPoints& points_m, const Eigen::VectorXd& hear
 }
 
 Eigen::VectorXd strengths_of(const RadioMap& map, Address beacon, const FloorPoints& points_m) {
-    constexpr double hole_spacings = 2.5;
     Eigen::VectorXd heard_dbm(points_m.rows());
     for (Eigen::Index i = 0; i < heard_dbm.size(); ++i) {
         const Strength* strength = find(map.points[static_cast<std::size_t>(i)], beacon);
         heard_dbm(i) = strength != nullptr ? strength->mean_dbm : std::nan("");
     }
     Eigen::VectorXd all_dbm = heard_dbm;
-    const double reach_m = hole_spacings * point_spacing_m(map), floor_dbm = hearing_floor_dbm(map);
+    const double reach_m = hole_reach_m(map), floor_dbm = hearing_floor_dbm(map);
     for (Eigen::Index i = 0; i < all_dbm.size(); ++i)
         if (std::isnan(heard_dbm(i))) all_dbm(i) = strength_in_hole(points_m, heard_dbm, i, reach_m, floor_dbm);
     return all_dbm;

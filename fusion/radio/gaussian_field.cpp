@@ -16,6 +16,7 @@ constexpr Eigen::Index corners_at_a_time = 512;
 constexpr double least_hypothesis = 0.01, least_source = 0.003;
 /// Beacons heard at fewer points say nothing of how they fall off; in a map so small that is all there are.
 constexpr std::size_t enough_points = 3;
+constexpr double most_lost = 0.95;
 
 struct WeightedHypothesis {
     FieldHypothesis hypothesis;
@@ -138,6 +139,31 @@ std::vector<Address> beacons_for(const RadioMap& map) {
     return beacons;
 }
 
+bool is_near(const ReferencePoint& a, const ReferencePoint& b, double reach_m) {
+    return std::hypot(a.position_site_m[0] - b.position_site_m[0], a.position_site_m[1] - b.position_site_m[1]) <=
+           reach_m;
+}
+
+/// How often a beacon is missing at a point although it was heard near by: what a scan loses, by the map's own word.
+/// Too much rather than too little: some of it lies at the rim of a beacon's reach.
+double lost_by_map(const RadioMap& map, const std::vector<Address>& beacons) {
+    std::size_t heard = 0, lost = 0;
+    const double reach_m = hole_reach_m(map);
+    const auto near_by = [&](const ReferencePoint& point, Address beacon) {
+        return std::ranges::any_of(map.points, [&](const ReferencePoint& other) {
+            return is_near(point, other, reach_m) && find(other, beacon) != nullptr;
+        });
+    };
+    for (const Address beacon : beacons)
+        for (const ReferencePoint& point : map.points) {
+            if (find(point, beacon) != nullptr)
+                ++heard;
+            else if (near_by(point, beacon))
+                ++lost;
+        }
+    return static_cast<double>(lost) / static_cast<double>(std::max<std::size_t>(1, lost + heard));
+}
+
 /// A survey goes where people go: the farther from its points, the less likely is anybody, by a bell of a few spacings.
 void set_priors(const RadioMap& map, StrengthGrid& grid) {
     constexpr double prior_spacings = 3;
@@ -185,7 +211,7 @@ StrengthGrid gaussian_field(const RadioMap& map, const FieldSettings& settings) 
             grid.set(static_cast<std::size_t>(b), static_cast<std::size_t>(c),
                      {static_cast<float>(mean), static_cast<float>(variance)});
         }
-    grid.finish(settings.lost_share);
+    grid.finish(std::clamp(lost_by_map(map, beacons), settings.lost_share, most_lost));
     set_priors(map, grid);
     return grid;
 }

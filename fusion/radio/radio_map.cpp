@@ -51,4 +51,9 @@ double point_spacing_m(const RadioMap& map) {
     return count > 0 ? sum_m / count : 1;
 }
 
+double hole_reach_m(const RadioMap& map) {
+    constexpr double spacings = 2.5;
+    return spacings * point_spacing_m(map);
+}
+
 } // namespace locus::radio

@@ -54,4 +54,7 @@ double hearing_floor_dbm(const RadioMap& map);
 /// Mean distance of a point to its nearest neighbour, on the floor; 1 for a single point.
 double point_spacing_m(const RadioMap& map);
 
+/// Within which a beacon that some point heard is taken to be in reach of the others: 2.5 spacings.
+double hole_reach_m(const RadioMap& map);
+
 } // namespace locus::radio
