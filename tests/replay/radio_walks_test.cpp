@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <numeric>
 
@@ -45,6 +46,7 @@ struct MallErrors {
 
 /// Ten times a second from the first pose on, and what part of the walk that is.
 double add_errors(const std::string& stem, MallErrors& errors) {
+    if (std::filesystem::file_size(stem + ".tum") == 0) return 0; // too short for a first position
     const auto truth = evaluate::read_truth(stem + ".truth.tum");
     const auto poses = evaluate::read_estimate(stem + ".tum");
     int with_pose = 0;
