@@ -102,7 +102,7 @@ Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noe
 }
 
 /// A beacon that says what it sends is known by that; two decibels are left, what beacons of one kind differ by.
-void RadioParticles::announce(Beacon& beacon, const SignalStrength& strength) noexcept {
+void RadioParticles::announce(Beacon& beacon, const SignalStrength& strength) const noexcept {
     constexpr float announced_variance_db2 = 4;
     if (!std::isfinite(strength.tx_power_dbm) || beacon.offset_variance_db2 <= announced_variance_db2) return;
     beacon.offset_db = strength.tx_power_dbm - static_cast<float>(settings_.power_1m_dbm);

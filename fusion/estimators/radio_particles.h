@@ -63,7 +63,7 @@ class RadioParticles final : public Estimator {
     Verdict hear(const SignalStrength& strength, Timestamp time) noexcept;
     Outlook foresee(std::size_t beacon) const noexcept;
     void learn_offset(Beacon& beacon, const Outlook& outlook, float innovation_db) noexcept;
-    void announce(Beacon& beacon, const SignalStrength& strength) noexcept;
+    void announce(Beacon& beacon, const SignalStrength& strength) const noexcept;
     void weigh(std::size_t beacon, float rssi_dbm, float share) noexcept;
     float scan_share() const noexcept;
     float share_of(const std::optional<Timestamp>& last, Timestamp time) const noexcept;

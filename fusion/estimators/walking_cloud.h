@@ -8,6 +8,7 @@
 #include "fusion/site.h"
 
 #include <limits>
+#include <utility>
 
 namespace locus {
 
@@ -25,8 +26,9 @@ struct WalkingSettings {
 class WalkingCloud {
   public:
     /// `site` outlives it. Places inside are relative to `origin_site_m`, so that single precision is enough.
-    WalkingCloud(const Site& site, const Eigen::Vector2d& origin_site_m, const WalkingSettings& settings)
-        : site_(&site), settings_(settings), origin_(origin_site_m), cloud_(settings.particles), gait_(settings.gait) {}
+    WalkingCloud(const Site& site, Eigen::Vector2d origin_site_m, const WalkingSettings& settings)
+        : site_(&site), settings_(settings), origin_(std::move(origin_site_m)), cloud_(settings.particles),
+          gait_(settings.gait) {}
 
     /// Takes the state of another one of the same site and settings. Does not allocate.
     void copy_from(const WalkingCloud& other) noexcept;

@@ -155,11 +155,12 @@ void Particles::scatter(std::span<const float> weights, const PlaceOf& place_m, 
     auto reached = double{weights[0]};
     double wanted = tooth * double{random_.uniform()};
     std::size_t from = 0;
-    for (std::size_t i = 0; i < count_; ++i, wanted += tooth) {
+    for (std::size_t i = 0; i < count_; ++i) {
         while (reached < wanted && from + 1 < weights.size()) reached += double{weights[++from]};
         const Point place = place_m(from);
         parts_[x][i] = static_cast<float>(place.x() + cell_m * (double{random_.uniform()} - 0.5));
         parts_[y][i] = static_cast<float>(place.y() + cell_m * (double{random_.uniform()} - 0.5));
+        wanted += tooth;
     }
     mean_.head<2>() = place_m(from);
     equal_weights();

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <numbers>
 
 namespace locus::radio {
 
@@ -22,7 +23,7 @@ struct FieldHypothesis {
 };
 
 inline double alike(double distance_m, double length_m) {
-    const double lengths = std::sqrt(3.0) * distance_m / length_m;
+    const double lengths = std::numbers::sqrt3 * distance_m / length_m;
     return (1 + lengths) * std::exp(-lengths);
 }
 

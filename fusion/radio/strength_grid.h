@@ -21,8 +21,8 @@ struct FloorCells {
 
     std::size_t count() const { return columns * rows; }
     Eigen::Vector2d place_site_m(std::size_t index) const {
-        return corner_site_m +
-               cell_m * Eigen::Vector2d(static_cast<double>(index % columns), static_cast<double>(index / columns));
+        const std::size_t column = index % columns, row = index / columns;
+        return corner_site_m + cell_m * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
     }
 };
 
