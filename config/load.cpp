@@ -1,12 +1,14 @@
 #include "config/load.h"
 #include "config/file_text.h"
 #include "config/names.h"
+#include "config/radio_map.h"
 #include "config/section.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace locus {
 namespace config {
@@ -136,10 +138,12 @@ LoadResult load_settings_text(std::string_view yaml, const std::string& file_nam
 LoadResult load_settings(const std::string& path) {
     std::string error;
     const auto text = config::read_file(path, error);
-    if (text) return load_settings_text(*text, path);
-    LoadResult result;
-    result.readable = false;
-    result.problems.push_back({path, 0, 0, error});
+    if (!text) return {std::nullopt, {{path, 0, 0, error}}, false};
+    LoadResult result = load_settings_text(*text, path);
+    if (!result.settings) return result;
+    config::load_radio_maps(result.settings->engine.estimators, std::filesystem::path(path).parent_path(),
+                            result.problems);
+    if (!result.problems.empty()) result.settings.reset();
     return result;
 }
 

@@ -24,6 +24,7 @@ struct LoadResult {
     bool readable = true; ///< false: the file could not be opened at all
 };
 
+/// With the radio maps that it names, which load_settings_text() leaves alone: it knows no folder.
 LoadResult load_settings(const std::string& path);
 LoadResult load_settings_text(std::string_view yaml, const std::string& file_name);
 

@@ -50,6 +50,7 @@ enum class Exclusion : std::uint8_t {
     site_without_origin,
     unknown_camera,
     nobody_known,
+    unknown_beacon,
     count_
 };
 
@@ -99,6 +100,7 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"site_without_origin", "the site does not say where on the Earth it lies: set site.origin"},
     {"unknown_camera", "it is none of the cameras in the settings"},
     {"nobody_known", "nobody's tag is where these feet are, or it is not sure yet whose"},
+    {"unknown_beacon", "it is neither in the radio map nor, where there is none, among the anchors of the site"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {

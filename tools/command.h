@@ -29,6 +29,7 @@ void add_play(CLI::App& root, int& exit_code);
 void add_check(CLI::App& root, int& exit_code);
 void add_config(CLI::App& root, int& exit_code);
 void add_calibrate(CLI::App& root, int& exit_code);
+void add_survey(CLI::App& root, int& exit_code);
 
 // Of the devices themselves.
 void add_record(CLI::App& root, int& exit_code);

@@ -7,24 +7,10 @@
 
 namespace {
 constexpr auto commands = std::to_array<locus::AddCommand>({
-    locus::add_status,
-    locus::add_sources,
-    locus::add_targets,
-    locus::add_view,
-    locus::add_watch,
-    locus::add_wait,
-    locus::add_reload,
-    locus::add_evaluate,
-    locus::add_record,
-    locus::add_sniff,
-    locus::add_check,
-    locus::add_config,
-    locus::add_completion,
-    locus::add_simulate,
-    locus::add_import,
-    locus::add_replay,
-    locus::add_play,
-    locus::add_calibrate,
+    locus::add_status, locus::add_sources, locus::add_targets,    locus::add_view,     locus::add_watch,
+    locus::add_wait,   locus::add_reload,  locus::add_evaluate,   locus::add_record,   locus::add_sniff,
+    locus::add_check,  locus::add_config,  locus::add_completion, locus::add_simulate, locus::add_import,
+    locus::add_replay, locus::add_play,    locus::add_calibrate,  locus::add_survey,
 });
 }
 

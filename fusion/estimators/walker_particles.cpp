@@ -1,7 +1,6 @@
 #include "fusion/estimators/walker_particles.h"
 
 #include "fusion/estimators/waiting.h"
-#include "fusion/geometry/turn_and_stretch.h"
 #include "fusion/geometry/vector.h"
 
 #include <algorithm>
@@ -44,6 +43,17 @@ GaitSettings gait_settings(const WalkerParticlesSettings& s) {
     return gait;
 }
 
+WalkingSettings walking_settings(const WalkerParticlesSettings& s) {
+    WalkingSettings walking;
+    walking.particles = cloud_settings(s);
+    walking.gait = gait_settings(s);
+    walking.velocity_wander_mps_rts = s.velocity_wander_mps_rts;
+    walking.person_sigma = s.person_sigma;
+    walking.height_m = s.height_m;
+    walking.height_sigma_m = s.height_sigma_m;
+    return walking;
+}
+
 Eigen::Vector2d middle_of(const Site& site) {
     Eigen::Vector2d sum(0, 0);
     for (const Anchor& anchor : site.anchors) sum += vector(anchor.position_site_m).head<2>();
@@ -54,16 +64,15 @@ Eigen::Vector2d middle_of(const Site& site) {
 
 WalkerParticles::WalkerParticles(const Site& site, const WalkerParticlesSettings& settings)
     : site_(&site), settings_(settings), gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
-      reader_(site, settings), origin_(middle_of(site)), cloud_(cloud_settings(settings)),
+      reader_(site, settings), walk_(site, middle_of(site), walking_settings(settings)),
       state_{filter::AnchorGates(site.anchors.size()),
              std::vector<std::optional<Timestamp>>(site.anchors.size()),
              {},
-             Gait(gait_settings(settings)),
              uwb::EpochKeeper(site, walker_epoch(settings))} {}
 
 void WalkerParticles::copy_from(const Estimator& other) noexcept {
     const auto& walker = static_cast<const WalkerParticles&>(other);
-    cloud_.copy_from(walker.cloud_);
+    walk_.copy_from(walker.walk_);
     state_ = walker.state_;
 }
 
@@ -83,23 +92,23 @@ Verdict WalkerParticles::hear(const Measurement& measurement) noexcept {
 
 Exclusion WalkerParticles::hear(const ImuSample& sample, Timestamp time) noexcept {
     if (!settings_.use_imu) return Exclusion::disabled;
-    state_.gait.hear(sample, time);
+    walk_.hear(sample, time);
     if (state_.missing != Missing::nothing) return Exclusion::waiting_for_start;
-    if (to_s(time - state_.time) > longest_outlook_s) advance(time);
+    if (to_s(time - walk_.time()) > longest_outlook_s) walk_.advance(time);
     return Exclusion::none;
 }
 
 Verdict WalkerParticles::take(const uwb::Sighting& sighting, Timestamp time) noexcept {
     state_.epoch.keep(sighting, time);
     if (state_.missing != Missing::nothing) return start(time);
-    advance(time);
+    walk_.advance(time);
     const Verdict verdict = weigh(sighting, time);
     start_again_if_lost(time);
     return verdict;
 }
 
 Verdict WalkerParticles::start(Timestamp time) noexcept {
-    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
+    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, walk_.place_site_m());
     if (answer.agrees) {
         start_at(answer.fix, time);
         return {};
@@ -114,84 +123,38 @@ void WalkerParticles::start_at(const uwb::Fix& fix, Timestamp time) noexcept {
     const double speed_variance = settings_.speed_sigma_mps * settings_.speed_sigma_mps;
     filter::Particles::Vector4 mean = filter::Particles::Vector4::Zero();
     filter::Particles::Matrix4 covariance = filter::Particles::Matrix4::Identity() * speed_variance;
-    if (state_.by_steps) { // a wrong place says nothing against the heading
-        mean.tail<2>() = cloud_.mean().tail<2>();
-        covariance.bottomRightCorner<2, 2>() = cloud_.covariance().bottomRightCorner<2, 2>();
+    if (walk_.by_steps()) { // a wrong place says nothing against the heading
+        mean.tail<2>() = cloud().mean().tail<2>();
+        covariance.bottomRightCorner<2, 2>() = cloud().covariance().bottomRightCorner<2, 2>();
     }
-    mean.head<2>() = local(fix.position_site_m);
+    mean.head<2>() = walk_.local(fix.position_site_m);
     covariance.topLeftCorner<2, 2>() = Eigen::Matrix3d(fix.covariance_m2.data()).topLeftCorner<2, 2>();
-    cloud_.start(mean, covariance);
-    cloud_.settle();
-    state_.gait.take();
-    state_.time = time;
+    particles().start(mean, covariance);
+    walk_.begin(time);
     state_.gates.begin_anew();
     state_.missing = Missing::nothing;
 }
 
-void WalkerParticles::advance(Timestamp time) noexcept {
-    if (time == state_.time) return;
-    const bool steps = state_.gait.leads() && state_.gait.heard(time);
-    if (steps && !state_.by_steps) lead_by_steps();
-    if (!steps && state_.by_steps) lead_by_velocity();
-    const double dt_s = to_s(time - state_.time);
-    const filter::ParticleMove move = state_.by_steps ? state_.gait.take() : wander(dt_s);
-    cloud_.move(move);
-    stop_at_walls(move.move.norm() * cloud_.mean().tail<2>().norm() + 4 * move.place_sigma_m);
-    cloud_.settle();
-    state_.time = time;
-}
-
-void WalkerParticles::stop_at_walls(double move_m) noexcept {
-    if (site_->walls.empty()) return;
-    const Eigen::Vector2d reach_m =
-        5 * cloud_.covariance().diagonal().head<2>().cwiseSqrt() + Eigen::Vector2d::Constant(move_m + 1);
-    const Eigen::AlignedBox2d near(cloud_.mean().head<2>() - reach_m, cloud_.mean().head<2>() + reach_m);
-    cloud_.begin_walls();
-    for (const Wall& wall : site_->walls) {
-        const Eigen::Vector2d from_m = local(wall.from_site_m), to_m = local(wall.to_site_m);
-        const Eigen::AlignedBox2d box(from_m.cwiseMin(to_m), from_m.cwiseMax(to_m));
-        if (near.intersects(box)) cloud_.hit_wall(from_m, to_m);
-    }
-    cloud_.end_walls();
-}
-
-/// The direction of the velocity, where there is a clear one, tells how the unit's heading lies in the site; else every
-/// direction is as likely.
-void WalkerParticles::lead_by_steps() noexcept {
-    state_.gait.take();
-    const Eigen::Vector2d velocity = cloud_.mean().tail<2>(), gait = state_.gait.speed_mps();
-    const double sigma = std::sqrt(0.5 * cloud_.covariance().bottomRightCorner<2, 2>().trace());
-    const double speed = velocity.norm();
-    if (speed > 3 * sigma && gait.norm() > 0)
-        cloud_.redraw_drives(quotient(velocity / speed, gait / gait.norm()),
-                             std::hypot(sigma / speed, settings_.person_sigma));
-    else
-        cloud_.redraw_drives({0, 0}, 1);
-    cloud_.weigh_drive_length(2 * settings_.person_sigma);
-    settle();
-    state_.by_steps = true;
-}
-
-void WalkerParticles::lead_by_velocity() noexcept {
-    cloud_.turn_drives(state_.gait.speed_mps());
-    cloud_.settle();
-    state_.by_steps = false;
-}
-
-bool WalkerParticles::settle() noexcept {
-    const bool alive = cloud_.settle();
-    cloud_.resample_if_poor();
-    return alive;
-}
+bool WalkerParticles::settle() noexcept { return walk_.settle(); }
 
 /// Most anchors refused may mean a bad site or a cloud in the wrong place: it moves only when the last window agrees on
 /// a place and fits there far better than here.
 void WalkerParticles::start_again_if_lost(Timestamp time) noexcept {
     if (!state_.gates.most_in_doubt(time, settings_.lost_after_s)) return;
-    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, place_site_m());
-    const double away_m = (local(answer.fix.position_site_m) - cloud_.mean().head<2>()).norm();
+    const uwb::EpochKeeper::Answer answer = state_.epoch.solve(time, walk_.place_site_m());
+    const double away_m = (walk_.local(answer.fix.position_site_m) - cloud().mean().head<2>()).norm();
     const bool better = answer.agrees && answer.cost_of_other - answer.fix.cost > gate_in_sigma_ * gate_in_sigma_;
     if (better && away_m > elsewhere * settings_.blocked_excess_m) start_at(answer.fix, time);
+}
+
+Estimate WalkerParticles::predict(Timestamp time) const noexcept {
+    Estimate estimate;
+    estimate.time = time;
+    estimate.reset_count = state_.reset_count;
+    estimate.missing = state_.missing;
+    estimate.kinds_used = state_.used.lately(time);
+    if (state_.missing == Missing::nothing) walk_.write(time, estimate);
+    return estimate;
 }
 
 std::unique_ptr<Estimator> make_walker_particles(const Site& site, const void* settings) {

@@ -5,13 +5,12 @@
 #pragma once
 
 #include "fusion/estimators/estimator.h"
-#include "fusion/estimators/gait.h"
 #include "fusion/estimators/range_reader.h"
 #include "fusion/estimators/used_kinds.h"
 #include "fusion/estimators/walker_particles_settings.h"
+#include "fusion/estimators/walking_cloud.h"
 #include "fusion/filter/anchor_gates.h"
 #include "fusion/filter/covariance_intersection.h"
-#include "fusion/filter/particles.h"
 #include "fusion/uwb/epoch_keeper.h"
 
 #include <optional>
@@ -30,7 +29,7 @@ class WalkerParticles final : public Estimator {
     void copy_from(const Estimator& other) noexcept override;
 
     /// For tests: the cloud as it was after the last update.
-    const filter::Particles& cloud() const noexcept { return cloud_; }
+    const filter::Particles& cloud() const noexcept { return walk_.particles(); }
 
   private:
     struct Expected {
@@ -39,15 +38,12 @@ class WalkerParticles final : public Estimator {
         double climb = 0; ///< derivative by the tag's height
     };
 
-    /// All but the cloud, whose copy leaves out what no one will read.
+    /// All but the cloud and its gait.
     struct State {
         filter::AnchorGates gates; ///< of a difference, anchor_b's
         std::vector<std::optional<Timestamp>> heard;
         UsedKinds used;
-        Gait gait;
         uwb::EpochKeeper epoch;
-        bool by_steps = false; ///< drives are turn and stretch of steps; else velocities
-        Timestamp time{};      ///< of the cloud
         std::uint32_t reset_count = 0;
         Missing missing = Missing::measurements;
     };
@@ -57,15 +53,9 @@ class WalkerParticles final : public Estimator {
     Verdict hear(const PeerRange& range, Timestamp time) noexcept;
     filter::Intersection share_with(const Eigen::Vector2d& direction, double state_variance,
                                     double variance_m2) const noexcept;
-    Eigen::Vector2d pace() const noexcept;
     Verdict take(const uwb::Sighting& sighting, Timestamp time) noexcept;
     Verdict start(Timestamp time) noexcept;
     void start_at(const uwb::Fix& fix, Timestamp time) noexcept;
-    void advance(Timestamp time) noexcept;
-    void stop_at_walls(double move_m) noexcept;
-    void lead_by_steps() noexcept;
-    void lead_by_velocity() noexcept;
-    filter::ParticleMove wander(double dt_s) const noexcept;
 
     Expected expect(const uwb::Sighting& sighting) const noexcept;
     double variance_m2(const uwb::Sighting& sighting, double climb, Timestamp time) noexcept;
@@ -74,17 +64,13 @@ class WalkerParticles final : public Estimator {
     bool settle() noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
 
-    Eigen::Vector2d local(const Vec3& site_m) const noexcept {
-        return {site_m[0] - origin_.x(), site_m[1] - origin_.y()};
-    }
-    Eigen::Vector3d place_site_m() const noexcept;
+    filter::Particles& particles() noexcept { return walk_.particles(); }
 
     const Site* site_;
     WalkerParticlesSettings settings_;
     double gate_in_sigma_;
     RangeReader reader_;
-    Eigen::Vector2d origin_{0, 0}; ///< of the cloud's places, so that single precision is enough
-    filter::Particles cloud_;
+    WalkingCloud walk_;
     State state_;
 };
 

@@ -41,14 +41,14 @@ Verdict WalkerParticles::hear(const PeerRange& range, Timestamp time) noexcept {
     if (state_.missing != Missing::nothing) return {Exclusion::waiting_for_start};
     if (range.range_m <= 0 || range.range_m > settings_.max_range_m) return {Exclusion::out_of_reach};
     if (!range.other.known()) return {Exclusion::peer_without_position};
-    advance(time);
+    walk_.advance(time);
 
-    const Eigen::Vector2d other = local(range.other.position_site_m);
-    const Eigen::Vector2d from_other = cloud_.mean().head<2>() - other;
+    const Eigen::Vector2d other = walk_.local(range.other.position_site_m);
+    const Eigen::Vector2d from_other = cloud().mean().head<2>() - other;
     const double sigma_m = std::isfinite(range.sigma_m) ? double{range.sigma_m} : settings_.peer_range_sigma_m;
-    const PeerSight sight(from_other, range.range_m, floor_m2(range.other), cloud_.covariance().topLeftCorner<2, 2>(),
+    const PeerSight sight(from_other, range.range_m, floor_m2(range.other), cloud().covariance().topLeftCorner<2, 2>(),
                           std::hypot(sigma_m, settings_.anchor_error_sigma_m));
-    const double state_variance = sight.towards_me.dot(cloud_.covariance().topLeftCorner<2, 2>() * sight.towards_me);
+    const double state_variance = sight.towards_me.dot(cloud().covariance().topLeftCorner<2, 2>() * sight.towards_me);
     const filter::Intersection part = share_with(sight.towards_me, state_variance, sight.variance_m2);
     const double innovation_m = range.range_m - (from_other.norm() + sight.longer_m);
     if (!part.worth()) {
@@ -58,8 +58,8 @@ Verdict WalkerParticles::hear(const PeerRange& range, Timestamp time) noexcept {
     const double variance = sight.variance_m2 / (1 - part.own);
     Verdict verdict = verdict_of(innovation_m, std::sqrt(state_variance / part.own + variance), gate_in_sigma_);
     if (verdict.test_ratio > 1) return kept_out(verdict);
-    cloud_.widen(1 / part.own);
-    cloud_.weigh_range(other, 0, std::max(0.0, range.range_m - sight.longer_m), noise(variance));
+    particles().widen(1 / part.own);
+    particles().weigh_range(other, 0, std::max(0.0, range.range_m - sight.longer_m), noise(variance));
     verdict.weight = static_cast<float>(1 - part.own);
     return settle() ? verdict : kept_out(verdict);
 }
@@ -67,9 +67,9 @@ Verdict WalkerParticles::hear(const PeerRange& range, Timestamp time) noexcept {
 /// How much of itself the cloud keeps beside what the other tells, for the surest position some seconds ahead.
 filter::Intersection WalkerParticles::share_with(const Eigen::Vector2d& direction, double state_variance,
                                                  double variance_m2) const noexcept {
-    const auto& mine = cloud_.covariance();
+    const auto& mine = cloud().covariance();
     Eigen::Matrix<double, 2, 4> view; // of the place then
-    view << Eigen::Matrix2d::Identity(), settings_.peer_horizon_s * product_matrix(pace());
+    view << Eigen::Matrix2d::Identity(), settings_.peer_horizon_s * product_matrix(walk_.pace());
     const Eigen::Vector4d cross = mine.leftCols<2>() * direction;
     return filter::intersect((view * mine * view.transpose()).trace(), (view * cross).squaredNorm(), state_variance,
                              variance_m2);

@@ -7,7 +7,7 @@
 namespace locus {
 
 WalkerParticles::Expected WalkerParticles::expect(const uwb::Sighting& sighting) const noexcept {
-    const Eigen::Vector3d place = place_site_m();
+    const Eigen::Vector3d place = walk_.place_site_m();
     const Eigen::Vector3d gradient = uwb::gradient(sighting, *site_, place);
     return {sighting.value_m - uwb::predicted_m(sighting, *site_, place), gradient.head<2>(), gradient.z()};
 }
@@ -34,7 +34,7 @@ filter::ParticleNoise WalkerParticles::noise(double variance_m2) const noexcept 
 Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) noexcept {
     const Expected expected = expect(sighting);
     const double variance = variance_m2(sighting, expected.climb, time);
-    const double spread = expected.gradient.dot(cloud_.covariance().topLeftCorner<2, 2>() * expected.gradient);
+    const double spread = expected.gradient.dot(cloud().covariance().topLeftCorner<2, 2>() * expected.gradient);
     const double sigma = std::sqrt(spread + variance);
     Verdict verdict = verdict_of(expected.innovation_m, sigma, gate_in_sigma_);
     auto& gate = state_.gates.gate(sighting.plus, time);
@@ -45,11 +45,11 @@ Verdict WalkerParticles::weigh(const uwb::Sighting& sighting, Timestamp time) no
     const Vec3& plus = site_->anchors[static_cast<std::size_t>(sighting.plus)].position_site_m;
     if (sighting.is_range()) {
         noise.short_tail_m = noise.sigma_m; // nothing makes a path much shorter
-        cloud_.weigh_range(local(plus), plus[2] - settings_.height_m, sighting.value_m, noise);
+        particles().weigh_range(walk_.local(plus), plus[2] - settings_.height_m, sighting.value_m, noise);
     } else {
         const Vec3& minus = site_->anchors[static_cast<std::size_t>(sighting.minus)].position_site_m;
-        cloud_.weigh_difference(local(minus), minus[2] - settings_.height_m, local(plus), plus[2] - settings_.height_m,
-                                sighting.value_m, noise);
+        particles().weigh_difference(walk_.local(minus), minus[2] - settings_.height_m, walk_.local(plus),
+                                     plus[2] - settings_.height_m, sighting.value_m, noise);
     }
     if (!settle()) verdict.reason = Exclusion::innovation_too_large;
     return verdict;

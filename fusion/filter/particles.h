@@ -9,8 +9,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace locus::filter {
@@ -56,6 +59,10 @@ class Particles {
     void copy_from(const Particles& other) noexcept;
 
     void start(const Vector4& mean, const Matrix4& covariance) noexcept;
+    /// At places of a lattice as likely as `weights` say (their sum is one), within half a `cell_m` of each; `place_m`
+    /// gives a place by its index. Drives of mean zero.
+    template <class PlaceOf>
+    void scatter(std::span<const float> weights, const PlaceOf& place_m, double cell_m, double drive_sigma) noexcept;
     void move(const ParticleMove& given) noexcept;
 
     /// Shuts out the particles whose last move went through a wall: begin, each wall that stands near, end.
@@ -67,6 +74,14 @@ class Particles {
     void weigh_range(const Point& anchor_m, double dz_m, double range_m, const ParticleNoise& noise) noexcept;
     void weigh_difference(const Point& a_m, double a_dz_m, const Point& b_m, double b_dz_m, double difference_m,
                           const ParticleNoise& noise) noexcept;
+    /// By the logarithm of a likelihood at each place: float(float x, float y). Only its differences count, so that
+    /// no evidence is too strong to be told in floats.
+    template <class LogLikelihood>
+    void weigh_places(const LogLikelihood& log_likelihood) noexcept;
+    /// Weighted mean of a value at each place: double(float x, float y).
+    template <class Value>
+    double mean_of(const Value& value) const noexcept;
+
     /// Drives of mean length 1 and this relative deviation are the likely ones: for drives that were made of
     /// velocities.
     void weigh_drive_length(double sigma) noexcept;
@@ -113,5 +128,44 @@ class Particles {
     Matrix4 covariance_ = Matrix4::Identity();
     double effective_size_ = 0;
 };
+
+template <class LogLikelihood>
+void Particles::weigh_places(const LogLikelihood& log_likelihood) noexcept {
+    float most = -std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < count_; ++i) {
+        passing_[i] = log_likelihood(parts_[x][i], parts_[y][i]);
+        most = std::max(most, passing_[i]);
+    }
+    for (std::size_t i = 0; i < count_; ++i) weights_[i] *= exp_of_negative(passing_[i] - most);
+}
+
+template <class Value>
+double Particles::mean_of(const Value& value) const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < count_; ++i) sum += double{weights_[i]} * value(parts_[x][i], parts_[y][i]);
+    return sum;
+}
+
+/// A comb over the sum of weights, as in resampling.
+template <class PlaceOf>
+void Particles::scatter(std::span<const float> weights, const PlaceOf& place_m, double cell_m,
+                        double drive_sigma) noexcept {
+    count_ = static_cast<std::size_t>(settings_.max_count);
+    const double tooth = 1 / static_cast<double>(count_);
+    auto reached = double{weights[0]};
+    double wanted = tooth * double{random_.uniform()};
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        while (reached < wanted && from + 1 < weights.size()) reached += double{weights[++from]};
+        const Point place = place_m(from);
+        parts_[x][i] = static_cast<float>(place.x() + cell_m * (double{random_.uniform()} - 0.5));
+        parts_[y][i] = static_cast<float>(place.y() + cell_m * (double{random_.uniform()} - 0.5));
+        wanted += tooth;
+    }
+    mean_.head<2>() = place_m(from);
+    equal_weights();
+    redraw_drives({0, 0}, drive_sigma);
+    effective_size_ = static_cast<double>(count_);
+}
 
 } // namespace locus::filter

@@ -1,5 +1,5 @@
 // What a cloud of walkers says of a time that no measurement has reached yet.
-#include "fusion/estimators/walker_particles.h"
+#include "fusion/estimators/walking_cloud.h"
 
 #include "fusion/geometry/turn_and_stretch.h"
 
@@ -26,12 +26,10 @@ void write_floor(const Eigen::Matrix4d& covariance, Estimate& estimate) {
 } // namespace
 
 /// Velocity over drive.
-Eigen::Vector2d WalkerParticles::pace() const noexcept {
-    return state_.by_steps ? state_.gait.speed_mps() : Eigen::Vector2d(1, 0);
-}
+Eigen::Vector2d WalkingCloud::pace() const noexcept { return by_steps_ ? gait_.speed_mps() : Eigen::Vector2d(1, 0); }
 
 /// White acceleration, seen as a velocity that changes by half at the beginning and half at the end.
-filter::ParticleMove WalkerParticles::wander(double dt_s) const noexcept {
+filter::ParticleMove WalkingCloud::wander(double dt_s) const noexcept {
     filter::ParticleMove move;
     move.move = {dt_s, 0};
     move.drive_sigma = settings_.velocity_wander_mps_rts * std::sqrt(dt_s);
@@ -39,30 +37,28 @@ filter::ParticleMove WalkerParticles::wander(double dt_s) const noexcept {
     return move;
 }
 
-Eigen::Vector3d WalkerParticles::place_site_m() const noexcept {
+/// As an Ornstein-Uhlenbeck process: what is left of a velocity after a while.
+void WalkingCloud::forget_velocity(double dt_s) noexcept {
+    if (std::isfinite(settings_.velocity_time_s)) cloud_.turn_drives({std::exp(-dt_s / settings_.velocity_time_s), 0});
+}
+
+Eigen::Vector3d WalkingCloud::place_site_m() const noexcept {
     const Eigen::Vector2d place = cloud_.mean().head<2>() + origin_;
     return {place.x(), place.y(), settings_.height_m};
 }
 
-Estimate WalkerParticles::predict(Timestamp time) const noexcept {
-    Estimate estimate;
-    estimate.time = time;
-    estimate.reset_count = state_.reset_count;
-    estimate.missing = state_.missing;
-    estimate.kinds_used = state_.used.lately(time);
-    if (state_.missing != Missing::nothing) return estimate;
-
-    const double dt_s = std::max(0.0, to_s(time - state_.time));
+void WalkingCloud::write(Timestamp time, Estimate& estimate) const noexcept {
+    const double dt_s = std::max(0.0, to_s(time - time_));
     const filter::ParticleMove wandering = wander(dt_s);
-    const Eigen::Vector2d ahead = state_.by_steps ? state_.gait.outlook(time) : wandering.move;
-    const double speed_sigma = state_.by_steps ? within_step_mps : wandering.drive_sigma;
+    const Eigen::Vector2d ahead = by_steps_ ? gait_.outlook(time) : wandering.move;
+    const double speed_sigma = by_steps_ ? within_step_mps : wandering.drive_sigma;
     const double wandered_m2 = wandering.drive_sigma * wandering.drive_sigma * dt_s * dt_s / 3;
 
     Eigen::Matrix4d by_state = Eigen::Matrix4d::Identity();
     by_state.topRightCorner<2, 2>() = product_matrix(ahead);
     by_state.bottomRightCorner<2, 2>() = product_matrix(pace());
     Eigen::Matrix4d covariance = by_state * cloud_.covariance() * by_state.transpose();
-    covariance.diagonal().head<2>().array() += state_.by_steps ? state_.gait.place_variance_m2() : wandered_m2;
+    covariance.diagonal().head<2>().array() += by_steps_ ? gait_.place_variance_m2() : wandered_m2;
     covariance.diagonal().tail<2>().array() += speed_sigma * speed_sigma;
     write_floor(covariance, estimate);
     estimate.covariance[14] = settings_.height_sigma_m * settings_.height_sigma_m;
@@ -70,7 +66,6 @@ Estimate WalkerParticles::predict(Timestamp time) const noexcept {
     const Eigen::Vector4d state = by_state * cloud_.mean();
     estimate.position_site_m = {state(0) + origin_.x(), state(1) + origin_.y(), settings_.height_m};
     estimate.velocity_site_mps = {state(2), state(3), 0};
-    return estimate;
 }
 
 } // namespace locus
