@@ -13,7 +13,7 @@ int cell_of(float at_px, int cells) { return std::clamp(static_cast<int>(at_px) 
 
 cv::Mat1f cells_of(const cv::Size& picture, const HeightMap& heights) {
     cv::Mat1f cells((picture.height + cell_px - 1) / cell_px, (picture.width + cell_px - 1) / cell_px);
-    const auto middle = [](int cell) { return static_cast<float>(cell * cell_px + cell_px / 2); };
+    const auto middle = [](int cell) { return static_cast<float>(cell * cell_px) + 0.5F * cell_px; };
     for (int row = 0; row < cells.rows; ++row)
         for (int column = 0; column < cells.cols; ++column)
             cells(row, column) = heights.at(middle(column), middle(row)).value_or(0);

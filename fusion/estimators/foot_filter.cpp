@@ -1,6 +1,6 @@
 #include "fusion/estimators/foot_filter.h"
 
-#include <Eigen/LU>
+#include "fusion/estimators/foot_evidence.h"
 
 #include <algorithm>
 #include <array>
@@ -12,29 +12,15 @@ namespace {
 /// No tracker knows feet better than this, whatever it says: a zero covariance would make the filter sure for ever.
 constexpr double least_foot_sigma_m = 0.01;
 
-Eigen::Matrix3d covariance_of(const FootPoint& foot, double beside_sigma_m) noexcept {
+Eigen::Matrix3d with_height(const FootPoint& foot, double beside_sigma_m) noexcept {
     const double beside_m2 = std::max(beside_sigma_m * beside_sigma_m, least_foot_sigma_m * least_foot_sigma_m);
-    const Eigen::Vector3d m2 = Eigen::Vector3f(foot.covariance_m2.data()).cast<double>();
     Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
-    covariance_m2.topLeftCorner<2, 2>() << m2(0), m2(1), m2(1), m2(2);
-    covariance_m2.diagonal().head<2>().array() += beside_m2;
+    covariance_m2.topLeftCorner<2, 2>() = covariance_of(foot) + beside_m2 * Eigen::Matrix2d::Identity();
     return covariance_m2;
 }
 
-bool is_sound(const FootPoint& foot) noexcept {
-    const auto [xx, xy, yy] = foot.covariance_m2;
-    const bool is_finite = std::isfinite(foot.position_site_m[0]) && std::isfinite(foot.position_site_m[1]) &&
-                           std::isfinite(xx) && std::isfinite(xy) && std::isfinite(yy);
-    return is_finite && xx >= 0 && yy >= 0 && xx * yy >= xy * xy;
-}
-
 Verdict judge(const filter::FixFilter::Innovation& innovation, double gate_in_sigma) noexcept {
-    const Eigen::Vector2d apart_m = innovation.value_m.head<2>();
-    const Eigen::Matrix2d expected_m2 = innovation.covariance_m2.topLeftCorner<2, 2>();
-    const double weighed = std::sqrt(apart_m.dot(expected_m2.inverse() * apart_m));
-    const double distance_m = apart_m.norm();
-    const double sigma_m = weighed > 0 ? distance_m / weighed : std::sqrt(0.5 * expected_m2.trace());
-    return verdict_of(distance_m, sigma_m, gate_in_sigma);
+    return judge_on_floor(innovation.value_m.head<2>(), innovation.covariance_m2.topLeftCorner<2, 2>(), gate_in_sigma);
 }
 
 } // namespace
@@ -42,7 +28,7 @@ Verdict judge(const filter::FixFilter::Innovation& innovation, double gate_in_si
 Verdict FootFilter::take(const FootPoint& foot, Timestamp time) noexcept {
     if (!is_sound(foot)) return {Exclusion::not_finite};
     const Eigen::Vector3d place_m(foot.position_site_m[0], foot.position_site_m[1], 0);
-    const Eigen::Matrix3d covariance_m2 = covariance_of(foot, model_.beside_sigma_m);
+    const Eigen::Matrix3d covariance_m2 = with_height(foot, model_.beside_sigma_m);
     Verdict verdict;
     if (filter_.is_started() && time - filter_.last_fix() > model_.memory) filter_.stop();
     if (filter_.is_started()) {

@@ -1,6 +1,7 @@
 // What a navigation filter makes of the feet that a camera sees: who stands on the floor has his tag above his feet,
 // and at about the height at which tags are worn.
 #include "fusion/estimators/carried_keys.h"
+#include "fusion/estimators/foot_evidence.h"
 #include "fusion/estimators/nav_filter.h"
 #include "fusion/geometry/vector.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 /// Of the body's sway, new at each step; the rest of the doubt in the height is carried.
 constexpr double sway_sigma_m = 0.05;
-
-Eigen::Matrix2d covariance_of(const FootPoint& foot) {
-    const auto [xx, xy, yy] = foot.covariance_m2;
-    return Eigen::Matrix2d{{xx, xy}, {xy, yy}};
-}
 
 } // namespace
 

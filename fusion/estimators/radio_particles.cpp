@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace locus {
 namespace {
@@ -13,8 +12,6 @@ namespace {
 constexpr double longest_radio_outlook_s = 0.5;
 /// A reading this many standard deviations off happens one time in twenty.
 constexpr float odd_sigmas = 2;
-/// What readings that fit nothing are spread over, dB: all that a radio hears.
-constexpr float outlier_range_db = 80;
 
 WalkingSettings radio_walking(const RadioParticlesSettings& s) {
     WalkingSettings walking;
@@ -33,12 +30,17 @@ WalkingSettings radio_walking(const RadioParticlesSettings& s) {
     return walking;
 }
 
+radio::ReadingNoise reading_noise(const RadioParticlesSettings& s) {
+    return {static_cast<float>(s.body_share), static_cast<float>(s.body_loss_db), static_cast<float>(s.outlier_share)};
+}
+
 } // namespace
 
 RadioParticles::RadioParticles(const Site& site, const RadioParticlesSettings& settings)
     : site_(&site), settings_(settings), doubt_limit_(-std::log(settings.gate_false_alarm)),
-      grid_(make_radio_grid(site, settings)), posterior_(grid_->cells().count()),
-      walk_(site, grid_->cells().corner_site_m, radio_walking(settings)) {
+      feet_gate_in_sigma_(std::sqrt(2 * doubt_limit_)), // chi-square of two degrees of freedom
+      noise_(reading_noise(settings)), grid_(make_radio_grid(site, settings)),
+      posterior_(grid_->cells().count(), noise_), walk_(site, grid_->cells().corner_site_m, radio_walking(settings)) {
     const bool by_map = settings.radio_map != nullptr;
     const double offset_sigma_db = by_map ? 0 : settings.power_sigma_db;
     Beacon beacon;
@@ -60,6 +62,7 @@ Verdict RadioParticles::update(const Measurement& measurement) noexcept {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.observation)) verdict = {hear(*imu, measurement.time)};
     if (const auto* strength = std::get_if<SignalStrength>(&measurement.observation))
         verdict = hear(*strength, measurement.time);
+    if (const auto* foot = std::get_if<FootPoint>(&measurement.observation)) verdict = see(*foot, measurement.time);
     if (started && verdict.reason == Exclusion::none) state_.used.note(measurement.observation, measurement.time);
     return verdict;
 }
@@ -85,7 +88,7 @@ Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noe
     announce(beacon, strength);
     beacon.sum_dbm += strength.rssi_dbm;
     ++beacon.count;
-    const float share = share_of(beacon.heard, time);
+    const float share = new_share(beacon.heard, time, settings_.held_error_time_s);
     beacon.heard = time;
     if (state_.missing != Missing::nothing) return {Exclusion::waiting_for_start};
 
@@ -99,62 +102,6 @@ Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noe
     weigh(index, strength.rssi_dbm - beacon.offset_db, share);
     learn_offset(beacon, outlook, innovation_db);
     return verdict;
-}
-
-/// A beacon that says what it sends is known by that; two decibels are left, what beacons of one kind differ by.
-void RadioParticles::announce(Beacon& beacon, const SignalStrength& strength) const noexcept {
-    constexpr float announced_variance_db2 = 4;
-    if (!std::isfinite(strength.tx_power_dbm) || beacon.offset_variance_db2 <= announced_variance_db2) return;
-    beacon.offset_db = strength.tx_power_dbm - static_cast<float>(settings_.power_1m_dbm);
-    beacon.offset_variance_db2 = announced_variance_db2;
-}
-
-/// A beacon heard faster than its deviation changes says the same again.
-float RadioParticles::share_of(const std::optional<Timestamp>& last, Timestamp time) const noexcept {
-    if (!last.has_value() || settings_.held_error_time_s <= 0) return 1;
-    return static_cast<float>(std::min(1.0, to_s(time - *last) / settings_.held_error_time_s));
-}
-
-RadioParticles::Outlook RadioParticles::foresee(std::size_t beacon) const noexcept {
-    const auto step = static_cast<float>(grid_->cells().cell_m);
-    const Eigen::Vector2f place = walk_.place_site_m().head<2>().cast<float>();
-    const radio::Expected here = grid_->at(beacon, place.x(), place.y());
-    const auto at = [&](float dx, float dy) { return grid_->at(beacon, place.x() + dx, place.y() + dy).mean_dbm; };
-    Outlook outlook;
-    outlook.mean_dbm = here.mean_dbm + state_.beacons[beacon].offset_db;
-    outlook.gradient_dbpm =
-        Eigen::Vector2f((at(step, 0) - at(-step, 0)) / (2 * step), (at(0, step) - at(0, -step)) / (2 * step))
-            .cast<double>();
-    const double spread_db2 =
-        outlook.gradient_dbpm.dot(cloud().covariance().topLeftCorner<2, 2>() * outlook.gradient_dbpm);
-    outlook.variance_db2 =
-        here.variance_db2 + state_.beacons[beacon].offset_variance_db2 + static_cast<float>(std::max(0.0, spread_db2));
-    return outlook;
-}
-
-/// A Kalman filter of one state for the power that a path-loss model does not know.
-void RadioParticles::learn_offset(Beacon& beacon, const Outlook& outlook, float innovation_db) noexcept {
-    if (beacon.offset_variance_db2 <= 0) return;
-    const float gain = beacon.offset_variance_db2 / outlook.variance_db2;
-    beacon.offset_db +=
-        gain * std::clamp(innovation_db, -3 * std::sqrt(outlook.variance_db2), 3 * std::sqrt(outlook.variance_db2));
-    beacon.offset_variance_db2 *= 1 - gain;
-}
-
-/// A bell with a floor under it, for what fits nothing; `share` of it, where part was said before.
-void RadioParticles::weigh(std::size_t beacon, float rssi_dbm, float share) noexcept {
-    const auto outliers = static_cast<float>(settings_.outlier_share);
-    const float floor = outliers / outlier_range_db;
-    const float peak = (1 - outliers) / std::sqrt(2 * std::numbers::pi_v<float>);
-    const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
-    const float offset_db2 = state_.beacons[beacon].offset_variance_db2;
-    walk_.particles().weigh_places([&](float x, float y) {
-        const radio::Expected expected = grid_->at(beacon, x + origin.x(), y + origin.y());
-        const float variance = expected.variance_db2 + offset_db2, off = rssi_dbm - expected.mean_dbm;
-        const float bell = peak / std::sqrt(variance) * filter::exp_of_negative(-0.5f * off * off / variance);
-        return share * std::log(bell + floor);
-    });
-    walk_.settle();
 }
 
 Estimate RadioParticles::predict(Timestamp time) const noexcept {

@@ -2,7 +2,7 @@
 // place of the distance to a fix, eq. 7): steps of a worn inertial unit or a wandering velocity move the cloud, signal
 // strengths weigh it by a map or, where there is none, by the path loss from the anchors. Beacons that ought to be
 // heard and are not count as weak. The first position, and the next where the cloud has lost its way, is where the
-// readings of a scan put it.
+// readings of a scan put it. Whom a camera has identified with it is where his feet are seen (paper 003 eq. 6).
 #pragma once
 
 #include "fusion/estimators/estimator.h"
@@ -10,8 +10,10 @@
 #include "fusion/estimators/used_kinds.h"
 #include "fusion/estimators/walking_cloud.h"
 #include "fusion/radio/floor_posterior.h"
+#include "fusion/radio/reading_noise.h"
 #include "fusion/radio/strength_grid.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,6 +45,11 @@ class RadioParticles final : public Estimator {
         float mean_dbm() const noexcept { return sum_dbm / static_cast<float>(count); }
     };
 
+    /// Feet in a row that were too far off.
+    struct Refused {
+        Timestamp first, last;
+    };
+
     struct State {
         std::vector<Beacon> beacons;
         UsedKinds used;
@@ -50,6 +57,8 @@ class RadioParticles final : public Estimator {
         int odd = 0, heard = 0; ///< readings of this scan that hardly fit, and all
         double doubt = 0;       ///< logarithm of how much likelier the floor as a whole makes them than the cloud
         std::uint32_t reset_count = 0;
+        std::optional<Timestamp> believed_feet; ///< the last that were not refused
+        std::optional<Refused> refused_feet;
         Missing missing = Missing::measurements;
     };
 
@@ -61,12 +70,18 @@ class RadioParticles final : public Estimator {
 
     Exclusion hear(const ImuSample& sample, Timestamp time) noexcept;
     Verdict hear(const SignalStrength& strength, Timestamp time) noexcept;
+    Verdict see(const FootPoint& foot, Timestamp time) noexcept;
+    Verdict judge_feet(const FootPoint& foot, const Eigen::Matrix2d& covariance_m2) const noexcept;
+    bool is_seen(Timestamp time) const noexcept;
+    bool is_patient(Timestamp time) noexcept;
+    void stand_on(const FootPoint& foot, const Eigen::Matrix2d& covariance_m2, Timestamp time) noexcept;
+    void weigh_feet(const FootPoint& foot, const Eigen::Matrix2d& covariance_m2) noexcept;
+
     Outlook foresee(std::size_t beacon) const noexcept;
     void learn_offset(Beacon& beacon, const Outlook& outlook, float innovation_db) noexcept;
     void announce(Beacon& beacon, const SignalStrength& strength) const noexcept;
     void weigh(std::size_t beacon, float rssi_dbm, float share) noexcept;
     float scan_share() const noexcept;
-    float share_of(const std::optional<Timestamp>& last, Timestamp time) const noexcept;
 
     void end_scan(Timestamp time) noexcept;
     void weigh_silence() noexcept;
@@ -78,6 +93,8 @@ class RadioParticles final : public Estimator {
     const Site* site_;
     RadioParticlesSettings settings_;
     double doubt_limit_;
+    double feet_gate_in_sigma_;
+    radio::ReadingNoise noise_;
     std::shared_ptr<const radio::StrengthGrid> grid_;
     radio::FloorPosterior posterior_;             ///< room for start()
     std::vector<radio::IndexedReading> readings_; ///< of a scan; room
@@ -85,10 +102,16 @@ class RadioParticles final : public Estimator {
     State state_;
 };
 
+/// What is heard or seen faster than its error changes says the same again: how much of it is new.
+inline float new_share(const std::optional<Timestamp>& last, Timestamp time, double held_s) noexcept {
+    if (!last.has_value() || held_s <= 0) return 1;
+    return static_cast<float>(std::min(1.0, to_s(time - last.value()) / held_s));
+}
+
 std::unique_ptr<Estimator> make_radio_particles(const Site& site, const void* settings);
 
 inline constexpr EstimatorRow radio_particles_row{
-    "radio_particles", "People on a floor by signal strength: a radio map or the anchors' path loss, and steps.",
+    "radio_particles", "People on a floor by signal strength: a radio map or the anchors' path loss, steps, feet.",
     option_table<RadioParticlesSettings>(radio_particles_options), make_radio_particles};
 
 } // namespace locus

@@ -60,10 +60,10 @@ void RadioParticles::put_where_radios_say(Timestamp time) noexcept {
 }
 
 /// Page's test (1954): the scans' likelihood ratio of "anywhere on the floor" against the cloud, never below one,
-/// gathers until chance can no longer explain it.
+/// gathers until chance can no longer explain it. Whom a camera sees is not lost, however odd his radio.
 void RadioParticles::start_again_if_lost(Timestamp time) noexcept {
     const bool is_odd = state_.odd > odd_share * state_.heard;
-    if (!is_odd) {
+    if (!is_odd || is_seen(time)) {
         state_.doubt = 0;
         return;
     }
@@ -71,7 +71,7 @@ void RadioParticles::start_again_if_lost(Timestamp time) noexcept {
     const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
     constexpr double most = 50; // beyond it the sum would not change
     const double ratio = cloud().mean_of([&](float x, float y) {
-        const double log = radio::log_likelihood(*grid_, readings_, x + origin.x(), y + origin.y());
+        const double log = radio::log_likelihood(*grid_, readings_, noise_, x + origin.x(), y + origin.y());
         return std::exp(std::min(most, log - anywhere));
     });
     state_.doubt = std::max(0.0, state_.doubt - double{scan_share()} * std::log(std::max(ratio, 1e-30)));

@@ -5,15 +5,14 @@
 
 namespace locus::radio {
 
-double log_likelihood(const StrengthGrid& grid, std::span<const IndexedReading> readings, float x_site_m,
-                      float y_site_m) noexcept {
+double log_likelihood(const StrengthGrid& grid, std::span<const IndexedReading> readings, const ReadingNoise& noise,
+                      float x_site_m, float y_site_m) noexcept {
     auto sum = double{grid.silence_of_all(x_site_m, y_site_m)};
     for (const IndexedReading& reading : readings) {
         const Expected expected = grid.at(reading.beacon, x_site_m, y_site_m);
         const float off = reading.rssi_dbm - reading.offset_db - expected.mean_dbm;
         const float variance = expected.variance_db2 + reading.offset_variance_db2;
-        sum -= double{0.5f * off * off / variance + 0.5f * std::log(variance) +
-                      grid.silence(reading.beacon, x_site_m, y_site_m)};
+        sum += double{log_likelihood(off, variance, noise) - grid.silence(reading.beacon, x_site_m, y_site_m)};
     }
     return sum;
 }
@@ -22,7 +21,7 @@ FloorBelief FloorPosterior::solve(const StrengthGrid& grid, std::span<const Inde
     float most = -std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < weights_.size(); ++i) {
         const Eigen::Vector2f place = grid.cells().place_site_m(i).cast<float>();
-        const double log = log_likelihood(grid, readings, place.x(), place.y());
+        const double log = log_likelihood(grid, readings, noise_, place.x(), place.y());
         weights_[i] = static_cast<float>(log) + grid.prior(i);
         most = std::max(most, weights_[i]);
     }

@@ -2,6 +2,7 @@
 // first position, for a filter that lost its way, and for single fingerprints.
 #pragma once
 
+#include "fusion/radio/reading_noise.h"
 #include "fusion/radio/strength_grid.h"
 
 #include <Eigen/Core>
@@ -26,12 +27,12 @@ struct FloorBelief {
 };
 
 /// Logarithm of the likelihood of readings at a place; beacons of the grid that are not among them count as silent.
-double log_likelihood(const StrengthGrid& grid, std::span<const IndexedReading> readings, float x_site_m,
-                      float y_site_m) noexcept;
+double log_likelihood(const StrengthGrid& grid, std::span<const IndexedReading> readings, const ReadingNoise& noise,
+                      float x_site_m, float y_site_m) noexcept;
 
 class FloorPosterior {
   public:
-    explicit FloorPosterior(std::size_t corners) : weights_(corners) {}
+    explicit FloorPosterior(std::size_t corners, const ReadingNoise& noise = {}) : weights_(corners), noise_(noise) {}
 
     /// Does not allocate. `grid` has as many corners as was said.
     FloorBelief solve(const StrengthGrid& grid, std::span<const IndexedReading> readings) noexcept;
@@ -41,6 +42,7 @@ class FloorPosterior {
 
   private:
     std::vector<float> weights_;
+    ReadingNoise noise_;
 };
 
 } // namespace locus::radio

@@ -24,6 +24,7 @@ Identity::Identity(const IdentitySettings& settings, std::size_t max_tags)
       evidence_(max_people * max_tags_), costs_(max_people, max_tags_), assigner_(max_people, max_tags_) {
     tags_.reserve(max_tags_);
     seen_.reserve(max_people);
+    held_before_.reserve(max_people);
     named_.reserve(max_people);
 }
 
@@ -53,6 +54,8 @@ std::size_t Identity::place_of(std::uint32_t track, Timestamp time) noexcept {
         clear(number);
         place->number = track;
     }
+    if (place->held != nobody)
+        place->confidence *= settings_.keep_s > 0 ? std::exp(-to_s(time - place->last) / settings_.keep_s) : 0;
     place->last = time;
     return number;
 }
@@ -106,15 +109,21 @@ void Identity::assign_tags() noexcept {
     for (std::size_t i = 0; i < seen_.size(); ++i)
         for (std::size_t tag = 0; tag < tags_.size(); ++tag)
             costs_.at(i, tag) = cost(seen_[i], tag) - (tracks_[seen_[i]].held == tag ? settings_.loyalty : 0);
-    for (const std::size_t track : seen_) tracks_[track].held = nobody;
+    held_before_.clear();
+    for (const std::size_t track : seen_) {
+        held_before_.push_back(tracks_[track].held);
+        tracks_[track].held = nobody;
+    }
     for (const auto& [i, tag] : assigner_.assign(costs_, settings_.gate))
-        hold(seen_[i], static_cast<std::uint16_t>(tag));
+        hold(seen_[i], static_cast<std::uint16_t>(tag), held_before_[i] == tag ? tracks_[seen_[i]].confidence : 0);
 }
 
-void Identity::hold(std::size_t track, std::uint16_t tag) noexcept {
+/// `kept`: the confidence that is left from before.
+void Identity::hold(std::size_t track, std::uint16_t tag, double kept) noexcept {
     for (Track& other : tracks_)
         if (other.held == tag) other.held = nobody;
     tracks_[track].held = tag;
+    tracks_[track].confidence = std::max(kept, confidence(track, tag));
 }
 
 double Identity::cost(std::size_t track, std::size_t tag) const noexcept {
@@ -137,7 +146,7 @@ double Identity::confidence(std::size_t track, std::size_t tag) const noexcept {
 Named Identity::named(std::size_t track) const noexcept {
     const Track& known = tracks_[track];
     if (known.held == nobody) return {known.number, std::nullopt, 0};
-    return {known.number, tags_[known.held], confidence(track, known.held)};
+    return {known.number, tags_[known.held], known.confidence};
 }
 
 } // namespace locus::vision

@@ -26,6 +26,7 @@ struct IdentitySettings {
     double settle_s = 0.3; ///< a few images, for a name that is not one image's chance
     double sigma_m = 0.5;  ///< a usual fix of a tag beside a foot point; wider ones prove less
     double forget_s = 5;   ///< somewhat longer than a tracker keeps who is lost
+    double keep_s = 0;     ///< tags that are told apart in every window need no memory, and a tracker's swap has none
 };
 
 template <class Settings>
@@ -41,7 +42,12 @@ inline constexpr std::array identity_options{
     option<&IdentitySettings::sigma_m, Settings>("sigma_m", "m", 0.01, 100,
                                                  "Usual standard deviation between the two; wider ones prove less."),
     option<&IdentitySettings::forget_s, Settings>("forget_s", "s", 0, 3600,
-                                                  "When a track or tag not seen for so long is forgotten.")};
+                                                  "When a track or tag not seen for so long is forgotten."),
+    option<&IdentitySettings::keep_s, Settings>(
+        "keep_s", "s", 0, 3600,
+        "Time in which the confidence of a pair fades that stays together where "
+        "nothing tells it from others; 0: at once. For tags that are known to "
+        "metres only, who are not told apart in a crowd.")};
 
 struct SeenPerson {
     std::uint32_t track = 0;
@@ -59,7 +65,9 @@ struct LocatedTag {
 struct Named {
     std::uint32_t track = 0;
     std::optional<Address> tag; ///< empty: nobody's, or not known yet
-    double confidence = 0; ///< 0..1, of the tag against all others of the track, all other tracks of the tag, and none
+    /// 0..1, of the tag against all others of the track, all other tracks of the tag, and none; or what is left of what
+    /// it was before, for as long as the two stay together.
+    double confidence = 0;
 };
 
 inline constexpr std::size_t max_people = 64; ///< that are told apart at a time
@@ -86,6 +94,7 @@ class Identity {
         std::uint32_t number = 0;
         Timestamp last = never;      ///< when he was seen; never: the place is free
         std::uint16_t held = nobody; ///< his tag
+        double confidence = 0;       ///< of that, as it was in the last image
     };
     static constexpr Timestamp never = Timestamp::min();
 
@@ -99,7 +108,7 @@ class Identity {
     void weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept;
     void forget(Timestamp time) noexcept;
     void assign_tags() noexcept;
-    void hold(std::size_t track, std::uint16_t tag) noexcept;
+    void hold(std::size_t track, std::uint16_t tag, double kept) noexcept;
     double cost(std::size_t track, std::size_t tag) const noexcept;
     double confidence(std::size_t track, std::size_t tag) const noexcept;
     Named named(std::size_t track) const noexcept;
@@ -107,10 +116,11 @@ class Identity {
     IdentitySettings settings_;
     std::size_t max_tags_;
     FlatIndex<Address> tag_numbers_;
-    std::vector<Address> tags_;      ///< by number
-    std::vector<Track> tracks_;      ///< max_people places
-    std::vector<Evidence> evidence_; ///< a row for each track
-    std::vector<std::size_t> seen_;  ///< places of the people of this image
+    std::vector<Address> tags_;              ///< by number
+    std::vector<Track> tracks_;              ///< max_people places
+    std::vector<Evidence> evidence_;         ///< a row for each track
+    std::vector<std::size_t> seen_;          ///< places of the people of this image
+    std::vector<std::uint16_t> held_before_; ///< by them, in the image before
     std::vector<Named> named_;
     Costs costs_;
     Assigner assigner_;

@@ -84,6 +84,7 @@ void add_neighbours(const std::string& stem, const radio::RadioMap& map, const S
 TEST(RadioWalks, StepsAndAMapFollowAPhoneThroughAMall) {
     const auto data = test::recorded("indoor_location_competition");
     if (!data) GTEST_SKIP() << "indoor_location_competition is not there";
+    if (!std::getenv("LOCUS_ALL_FRAMES")) GTEST_SKIP() << "takes a minute: LOCUS_ALL_FRAMES=1 runs it";
     const test::TemporaryFolder folder;
     const std::string command = "python3 '" + test::source_folder() + "/tools/convert/indoor_location' '" +
                                 data->string() + "' site2/F3 --out '" + folder.path() + "' > /dev/null";
