@@ -17,7 +17,7 @@ namespace {
 
 /// Two decimals of each of its four numbers, rounded, change a quaternion's length by at most this.
 constexpr double unit_tolerance = 0.01;
-constexpr double largest_time_s = 9e9; ///< what Timestamp holds; nanoseconds, as ORB-SLAM3's EuRoC files have, are not
+constexpr double largest_time_s = 4e9; ///< since 1970 until 2096; ORB-SLAM3's EuRoC files have nanoseconds
 constexpr double farthest = 1e6;       ///< in the SLAM's unit, which is metres or the depth of its first view
 
 /// A frame is as late as tracking it takes, which is less than 0.1 s in real time and some times that when the machine

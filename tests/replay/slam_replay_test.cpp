@@ -1,10 +1,13 @@
 // Key frames that ORB-SLAM wrote (evo_trajectories, fr2_desk), as they stand in its file, and a tag's lines beside them
-// in one raw recording: through the decoders and the replay to the scale. The ranges are simulated (slam_paths.h).
+// in one raw recording, or the file imported beside a recording of ranges: through the replay to the scale. The ranges
+// are simulated (slam_paths.h).
 #include "config/load.h"
 #include "drivers/recording/log_line.h"
+#include "drivers/recording/measurement_json.h"
 #include "drivers/uwb/trek1000.h"
 #include "tests/replay/slam_paths.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/import/import.h"
 #include "tools/replay/replay.h"
 
 #include <fmt/format.h>
@@ -65,34 +68,65 @@ std::string configuration_of(const Site& site) {
                        number(tag_address));
 }
 
-TEST(SlamReplay, KeyFramesOfAFileAndATagTellTheScale) {
-    const auto desk = recording("fr2_desk_ORB_kf_mono.txt", "fr2_desk_groundtruth.txt");
-    if (!desk) GTEST_SKIP() << "evo_trajectories is not there";
-    const Site site = room(desk->truth);
-    LogLines log;
-    append_key_frames(log, *test::recorded("evo_trajectories") / "fr2_desk_ORB_kf_mono.txt");
-    append_sweeps(log, ranges(*desk, site, noise_m, 1, bridged_gap_s));
+class SlamReplay : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto found = recording("fr2_desk_ORB_kf_mono.txt", "fr2_desk_groundtruth.txt");
+        if (!found) GTEST_SKIP() << "evo_trajectories is not there";
+        desk_ = found.value();
+        key_frames_ = test::recorded("evo_trajectories").value() / "fr2_desk_ORB_kf_mono.txt";
+        site_ = room(desk_.truth);
+        ranges_ = ranges(desk_, site_, noise_m, 1, bridged_gap_s);
+    }
 
-    const test::TemporaryFolder folder;
-    std::ofstream file(folder / "desk.log");
+    void expect_scale(const std::string& recording) const {
+        std::ofstream(folder_ / "desk.yaml") << configuration_of(site_);
+        const auto loaded = load_settings(folder_ / "desk.yaml");
+        ASSERT_TRUE(loaded.settings.has_value()) << to_string(loaded.problems.front());
+        const std::string said = folder_ / "poses.jsonl";
+        const auto summary = replay::replay(loaded.settings.value(), {recording, {said}, "", false, false});
+        EXPECT_EQ(summary.read.bad_lines, 0u);
+        EXPECT_EQ(summary.read.refused, decltype(summary.read.refused){});
+
+        std::ifstream poses(said);
+        nlohmann::json last;
+        for (std::string line; std::getline(poses, line);) last = nlohmann::json::parse(line)["odometry_scale"];
+        ASSERT_TRUE(last.contains("metres_per_unit")) << last;
+        const double truth = scale_to_truth(desk_, -1, 1e9, bridged_gap_s);
+        std::printf("fr2_desk: %.4f m a unit, sigma %.2f %%; motion capture says %.4f\n",
+                    last["metres_per_unit"].get<double>(), 100 * last["relative_sigma"].get<double>(), truth);
+        EXPECT_NEAR(last["metres_per_unit"].get<double>() / truth, 1, 0.01);
+    }
+
+    test::TemporaryFolder folder_;
+    Recording desk_;
+    std::filesystem::path key_frames_;
+    Site site_;
+    std::vector<Measurement> ranges_;
+};
+
+TEST_F(SlamReplay, LinesOfAFileAndOfATagTellTheScale) {
+    LogLines log;
+    append_key_frames(log, key_frames_);
+    append_sweeps(log, ranges_);
+    std::ofstream file(folder_ / "desk.log");
     for (const auto& [time, line] : log) file << line << '\n';
     file.close();
-    std::ofstream(folder / "desk.yaml") << configuration_of(site);
-    const auto loaded = load_settings(folder / "desk.yaml");
-    ASSERT_TRUE(loaded.settings.has_value()) << to_string(loaded.problems.front());
-    const auto summary =
-        replay::replay(loaded.settings.value(), {folder / "desk.log", {folder / "desk.jsonl"}, "", false, false});
-    EXPECT_EQ(summary.read.bad_lines, 0u);
-    EXPECT_EQ(summary.read.refused, decltype(summary.read.refused){});
+    expect_scale(folder_ / "desk.log");
+}
 
-    std::ifstream poses(folder / "desk.jsonl");
-    nlohmann::json last;
-    for (std::string line; std::getline(poses, line);) last = nlohmann::json::parse(line)["odometry_scale"];
-    ASSERT_TRUE(last.contains("metres_per_unit")) << last;
-    const double truth = scale_to_truth(*desk, -1, 1e9, bridged_gap_s);
-    std::printf("fr2_desk through the decoders: %.4f m a unit, sigma %.2f %%; motion capture says %.4f\n",
-                last["metres_per_unit"].get<double>(), 100 * last["relative_sigma"].get<double>(), truth);
-    EXPECT_NEAR(last["metres_per_unit"].get<double>() / truth, 1, 0.01);
+TEST_F(SlamReplay, AnImportedFileBesideARecordingTellsTheScale) {
+    std::ofstream file(folder_ / "ranges.jsonl");
+    for (const Measurement& measurement : ranges_) file << to_json_line(measurement) << '\n';
+    file.close();
+    importing::Request request{{folder_ / "ranges.jsonl", key_frames_.string()}, folder_ / "both.jsonl", tag_address};
+    std::ifstream first_line(key_frames_);
+    double begin_s = 0;
+    first_line >> begin_s;
+    request.poses_shift_s = log_begin_s - begin_s;
+    const auto reports = importing::import_files(request);
+    EXPECT_EQ(reports[1].given.at("VISUAL_ODOMETRY"), desk_.key_frames.size());
+    expect_scale(folder_ / "both.jsonl");
 }
 
 } // namespace
