@@ -13,6 +13,7 @@
 #include "drivers/radio/hm10.h"
 #include "drivers/radio/xbee.h"
 #include "drivers/radio/znp.h"
+#include "drivers/slam/tum.h"
 #include "drivers/uwb/apps_json.h"
 #include "drivers/uwb/cwru_can.h"
 #include "drivers/uwb/dw1000_can.h"
@@ -101,6 +102,8 @@ constexpr std::array decoder_rows{
                uwb::pulson::make_udp, true},
     DecoderRow{"pulson_can", "PulsON P440 radio over CAN (J1939): RCM and RangeNet ranges", Wire::can,
                option_table<uwb::pulson::PulsonSettings>(uwb::pulson::can_options), uwb::pulson::make_can},
+    DecoderRow{"tum", "Poses of a SLAM or visual odometry as TUM lines: ORB-SLAM3, OpenVINS, VINS-Fusion", Wire::bytes,
+               option_table<slam::TumSettings>(slam::tum_options), slam::make_tum},
     DecoderRow{"ubx", "u-blox GNSS receivers: fixes, raw measurements and navigation words in UBX", Wire::bytes,
                option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
     DecoderRow{"nmea", "GNSS receivers that talk NMEA 0183: one fix from GGA, RMC or VTG, and GST", Wire::bytes,

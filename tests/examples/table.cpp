@@ -23,6 +23,7 @@ std::vector<DecoderExample> pulson();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
 std::vector<DecoderExample> trek1000();
+std::vector<DecoderExample> tum();
 std::vector<DecoderExample> ubx();
 std::vector<DecoderExample> vectornav();
 std::vector<DecoderExample> witmotion();
@@ -30,9 +31,10 @@ std::vector<DecoderExample> xsens();
 
 namespace {
 
-constexpr std::array families{apps_json,    cwru_can,   dw1000_can, dwm1001, epson_g370, layouts,   listener_json,
-                              loco_sniffer, navlab,     nlink,      nmea,    obd2,       pdoa_json, pulson,
-                              radio,        robomaster, trek1000,   ubx,     vectornav,  witmotion, xsens};
+constexpr std::array families{apps_json,     cwru_can,     dw1000_can, dwm1001,    epson_g370, layouts,
+                              listener_json, loco_sniffer, navlab,     nlink,      nmea,       obd2,
+                              pdoa_json,     pulson,       radio,      robomaster, trek1000,   tum,
+                              ubx,           vectornav,    witmotion,  xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

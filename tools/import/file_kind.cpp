@@ -3,6 +3,8 @@
 #include "drivers/gnss/nmea_sentence.h"
 #include "drivers/gnss/rinex_text.h"
 #include "drivers/gnss/ubx_frame.h"
+#include "drivers/recording/measurement_json.h"
+#include "drivers/slam/tum.h"
 #include "tools/import/lines.h"
 
 #include <fmt/format.h>
@@ -54,6 +56,27 @@ bool has_sentence(std::string_view text) {
     return false;
 }
 
+/// The first line that says anything.
+std::string_view first_said(std::string_view text) {
+    while (!text.empty()) {
+        std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        if (!line.empty() && line.front() != '#') return line;
+    }
+    return {};
+}
+
+bool is_pose(std::string_view line) {
+    const auto pose = slam::parse_tum_pose(line);
+    return pose && slam::is_usable(*pose);
+}
+
+bool is_measurement(std::string_view line) {
+    std::string error;
+    return from_json_line(line, error).has_value();
+}
+
 } // namespace
 
 FileKind kind_of_file(const std::string& path) {
@@ -66,7 +89,9 @@ FileKind kind_of_file(const std::string& path) {
     if (text.starts_with("\x1f\x8b")) refuse(path, "is packed: unpack it with gunzip first");
     if (has_ubx_frame(bytes)) return FileKind::ubx;
     if (has_sentence(text)) return FileKind::nmea;
-    refuse(path, "is neither RINEX nor a log of UBX or NMEA");
+    if (is_pose(first_said(text))) return FileKind::tum;
+    if (is_measurement(first_said(text))) return FileKind::measurements;
+    refuse(path, "is neither RINEX nor a log of UBX or NMEA, nor TUM poses, nor a recording of measurements");
 }
 
 } // namespace locus::importing

@@ -6,7 +6,7 @@
 
 namespace locus::importing {
 
-enum class FileKind { rinex_observations, rinex_navigation, ubx, nmea };
+enum class FileKind { rinex_observations, rinex_navigation, ubx, nmea, tum, measurements };
 
 constexpr std::string_view kind_name(FileKind kind) {
     switch (kind) {
@@ -18,6 +18,10 @@ constexpr std::string_view kind_name(FileKind kind) {
         return "UBX log";
     case FileKind::nmea:
         return "NMEA log";
+    case FileKind::tum:
+        return "TUM poses";
+    case FileKind::measurements:
+        return "recording of measurements";
     }
     return "";
 }

@@ -94,9 +94,17 @@ class Import {
         const std::string& path = request.files[i];
         if (kind == FileKind::ubx) return add(observed_, open_ubx_log(path, request.tag), kind, path, i);
         if (kind == FileKind::nmea) return add(observed_, open_nmea_log(path, request.tag), kind, path, i);
+        if (kind == FileKind::measurements) return add(observed_, open_measurements(path), kind, path, i);
+        if (kind == FileKind::tum) return add(observed_, open_poses(path, request), kind, path, i);
         GlonassSlots slots;
         for (const NavigationFile* file : navigation_) slots.merge(file->glonass_slots());
         add(observed_, open_rinex_observations(path, request.tag, std::move(slots)), kind, path, i);
+    }
+
+    static std::unique_ptr<Source> open_poses(const std::string& path, const Request& request) {
+        slam::TumSettings settings = request.poses;
+        settings.tag = request.tag;
+        return open_tum_poses(path, settings, request.poses_shift_s);
     }
 
     static void add(std::vector<Stream>& streams, std::unique_ptr<Source> source, FileKind kind,

@@ -1,4 +1,4 @@
-// Files of GNSS receivers and navigation services into one recording, in order of time.
+// Files of GNSS receivers, navigation services and SLAMs into one recording, in order of time.
 #pragma once
 
 #include "tools/import/source.h"
@@ -13,6 +13,8 @@ struct Request {
     std::string output; ///< .jsonl
     Address tag = address(0);
     bool overwrite = false;
+    slam::TumSettings poses{}; ///< of TUM poses; the tag is the one above
+    double poses_shift_s = 0;  ///< from their clock to that of the other files
 };
 
 /// Writes the recording. A measurement's input is the place of its file in the request. Throws std::runtime_error with

@@ -19,8 +19,8 @@ void append(std::vector<std::string>& lines, const FileReport& report) {
     lines.push_back(fmt::format("{}: {}", report.path, report.kind));
     for (const auto& [name, count] : report.given) lines.push_back(fmt::format("  {} {}", count, name));
     if (report.first)
-        lines.push_back(fmt::format("  from {} to {} s of GPS time, {}", tools::figure(to_s(*report.first), 3),
-                                    tools::figure(to_s(report.last), 3),
+        lines.push_back(fmt::format("  from {} to {} s of {}, {}", tools::figure(to_s(*report.first), 3),
+                                    tools::figure(to_s(report.last), 3), report.clock,
                                     tools::duration(to_s(report.last - *report.first))));
     for (const auto& [why, count] : report.left_out) lines.push_back(fmt::format("  left out: {} {}", count, why));
     for (std::size_t i = 0; i < refusal_count; ++i)

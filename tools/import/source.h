@@ -1,8 +1,10 @@
 // One file of a GNSS receiver or of a navigation service, read piece by piece: measurements with GPS time, as GPS
-// seconds since 1980-01-06, which is the clock of what is imported.
+// seconds since 1980-01-06, which is the clock of what is imported. Poses of a SLAM and recordings of measurements have
+// the clock they come with.
 #pragma once
 
 #include "drivers/decoder.h"
+#include "drivers/slam/tum.h"
 #include "fusion/measurement.h"
 
 #include <array>
@@ -21,6 +23,7 @@ struct FileReport {
 
     std::string path;
     std::string_view kind;
+    std::string_view clock = "GPS time"; ///< of `first` and `last`
     std::uint64_t bad = 0;
     std::vector<std::string> problems;             ///< "line 7: why"
     std::map<std::string, std::uint64_t> left_out; ///< by reason
@@ -68,5 +71,8 @@ using GlonassSlots = std::map<std::uint8_t, std::uint8_t>;
 std::unique_ptr<Source> open_rinex_observations(const std::string& path, Address tag, GlonassSlots slots);
 std::unique_ptr<Source> open_ubx_log(const std::string& path, Address tag);
 std::unique_ptr<Source> open_nmea_log(const std::string& path, Address tag);
+/// `shift_s` is added to the stamps; `settings.stamps` does not matter.
+std::unique_ptr<Source> open_tum_poses(const std::string& path, const slam::TumSettings& settings, double shift_s);
+std::unique_ptr<Source> open_measurements(const std::string& path);
 
 } // namespace locus::importing

@@ -58,6 +58,10 @@ std::string ubx_log() {
     return log + text_of(encode(pvt));
 }
 
+/// Of a SLAM that was started again, with a line of something else.
+const std::string poses = "# timestamp tx ty tz qx qy qz qw\n1000 1 2 3 0 0 0 1\n1001 2 2 3 0 0 0 1\nDone.\n"
+                          "500 0 0 0 0 0 0 1\n501 1 0 0 0 0 0 1\n";
+
 class ImportTest : public testing::Test {
   protected:
     std::string write(const std::string& name, const std::string& text) const {
@@ -155,7 +159,46 @@ TEST_F(ImportTest, AnNmeaLogIsDatedByItsDates) {
         EXPECT_EQ(all[i].time, timestamp_from_s(1167264015.0 + static_cast<double>(i + i / 2))) << i;
 }
 
+TEST_F(ImportTest, PosesAreDatedByTheirStamps) {
+    Request request{{write("poses", poses)}, out(), address(7), true};
+    request.poses.camera = address(40);
+    request.poses_shift_s = 10;
+    const auto reports = import_files(request);
+    const auto all = written();
+    ASSERT_EQ(all.size(), 3u) << "the first after a restart could be a stray";
+    const auto& second = std::get<VisualOdometry>(all[1].observation);
+    EXPECT_EQ(all[1].time, timestamp_from_s(1011));
+    EXPECT_EQ(second.tag, address(7));
+    EXPECT_EQ(second.camera, address(40));
+    EXPECT_EQ(second.position_odometry, (Vec3{2, 2, 3}));
+    EXPECT_EQ(second.segment, 0u);
+    EXPECT_EQ(all[2].time, timestamp_from_s(511));
+    EXPECT_EQ(std::get<VisualOdometry>(all[2].observation).segment, 1u);
+    EXPECT_EQ(reports[0].kind, "TUM poses");
+    EXPECT_EQ(reports[0].clock, "the poses' clock");
+    EXPECT_EQ(reports[0].refused[static_cast<std::size_t>(Refusal::malformed)], 1u);
+    EXPECT_EQ(reports[0].refused[static_cast<std::size_t>(Refusal::out_of_range)], 1u);
+}
+
+TEST_F(ImportTest, ARecordingIsPutTogetherWithPoses) {
+    std::string ranges = "# of a tag\n";
+    for (const double time_s : {999.5, 1000.5, 1001.5})
+        ranges += to_json_line({timestamp_from_s(time_s), 0, 5, Range{address(1), address(7), time_s}}) + '\n';
+    const auto reports = import({write("a", poses.substr(0, poses.find("Done"))), write("b", ranges + "{}\n")});
+    const auto all = written();
+    ASSERT_EQ(all.size(), 5u);
+    EXPECT_TRUE(std::ranges::is_sorted(all, {}, &Measurement::time));
+    EXPECT_EQ(std::get<Range>(all[2].observation).range_m, 1000.5);
+    EXPECT_EQ(all[2].input, 1) << "its file's place";
+    EXPECT_THAT(reports[1].problems, ElementsAre(HasSubstr("line 5: ")));
+}
+
 TEST_F(ImportTest, WhatAFileIsStandsInIt) {
+    EXPECT_EQ(kind_of_file(write("x", poses)), FileKind::tum);
+    EXPECT_EQ(kind_of_file(write("x", "\r\n# remark\r\n1,0,0,0,0,0,0,1\r\n")), FileKind::tum);
+    EXPECT_EQ(kind_of_file(write("x", to_json_line({{}, 0, 0, Range{address(1), address(2), 3}}) + "\n")),
+              FileKind::measurements);
+    EXPECT_THAT(refusal("1 2 3 4 5 6 7 8\n"), HasSubstr("nor TUM poses")) << "that is no attitude";
     EXPECT_EQ(kind_of_file(write("x", observations)), FileKind::rinex_observations);
     EXPECT_EQ(kind_of_file(write("x", navigation)), FileKind::rinex_navigation);
     EXPECT_EQ(kind_of_file(write("x", ubx_log())), FileKind::ubx);
@@ -184,6 +227,11 @@ TEST_F(ImportTest, ExitCodes) {
     EXPECT_EQ(run("import " + file + " -o " + out()), exit_usage) << "it is there already";
     EXPECT_EQ(run("import " + file + " --force --json -o " + out()), exit_yes);
     EXPECT_EQ(run("import " + file + " -o " + (folder_ / "out.txt")), exit_usage);
+    EXPECT_EQ(run("import " + write("p", poses) + " --force --tag 9 --poses-shift -900 --poses-gap 0.5 -o " + out()),
+              exit_yes);
+    EXPECT_EQ(written().size(), 1u) << "one second apart is too far";
+    EXPECT_EQ(written().at(0).time, timestamp_from_s(100));
+    EXPECT_EQ(std::get<VisualOdometry>(written().at(0).observation).camera, address(9));
     EXPECT_EQ(run("import /nowhere -o " + out() + " --force"), exit_usage);
     EXPECT_EQ(run("import " + write("empty", rinex_version("3.04", 'N') + headed("", "END OF HEADER")) +
                   " --force -o " + out()),

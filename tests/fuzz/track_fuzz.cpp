@@ -1,4 +1,5 @@
-// Files of strangers: whatever they hold, a track comes out in order and finite, or a sentence with the line.
+// Files of strangers (TUM trajectories, poses as JSON lines): whatever they hold, a track comes out in order and
+// finite, or a sentence with the line.
 #include "tools/evaluate/read.h"
 
 #include <cmath>
