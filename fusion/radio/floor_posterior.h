@@ -32,7 +32,8 @@ double log_likelihood(const StrengthGrid& grid, std::span<const IndexedReading> 
 
 class FloorPosterior {
   public:
-    explicit FloorPosterior(std::size_t corners, const ReadingNoise& noise = {}) : weights_(corners), noise_(noise) {}
+    explicit FloorPosterior(std::size_t corners, const ReadingNoise& noise = as_surveyed)
+        : weights_(corners), noise_(noise) {}
 
     /// Does not allocate. `grid` has as many corners as was said.
     FloorBelief solve(const StrengthGrid& grid, std::span<const IndexedReading> readings) noexcept;

@@ -17,6 +17,9 @@ struct ReadingNoise {
     float outlier_share = 0.05F; ///< of readings that fit nothing
 };
 
+/// Of single fingerprints in a place that is as it was surveyed.
+inline constexpr ReadingNoise as_surveyed{0, 8, 0};
+
 /// What a reading that fits nothing is spread over: all that a radio hears.
 inline constexpr float outlier_range_db = 80;
 
