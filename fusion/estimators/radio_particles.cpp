@@ -34,13 +34,21 @@ radio::ReadingNoise reading_noise(const RadioParticlesSettings& s) {
     return {static_cast<float>(s.body_share), static_cast<float>(s.body_loss_db), static_cast<float>(s.outlier_share)};
 }
 
+/// Of a whole scan put side by side with the whole floor. What silence says there has no bound, so what is heard has
+/// none either: else somebody who hears many beacons is thought to be where there are none.
+radio::ReadingNoise of_scan(radio::ReadingNoise noise) {
+    noise.outlier_share = 0;
+    return noise;
+}
+
 } // namespace
 
 RadioParticles::RadioParticles(const Site& site, const RadioParticlesSettings& settings)
     : site_(&site), settings_(settings), doubt_limit_(-std::log(settings.gate_false_alarm)),
       feet_gate_in_sigma_(std::sqrt(2 * doubt_limit_)), // chi-square of two degrees of freedom
       noise_(reading_noise(settings)), grid_(make_radio_grid(site, settings)),
-      posterior_(grid_->cells().count(), noise_), walk_(site, grid_->cells().corner_site_m, radio_walking(settings)) {
+      posterior_(grid_->cells().count(), of_scan(noise_)),
+      walk_(site, grid_->cells().corner_site_m, radio_walking(settings)) {
     const bool by_map = settings.radio_map != nullptr;
     const double offset_sigma_db = by_map ? 0 : settings.power_sigma_db;
     Beacon beacon;

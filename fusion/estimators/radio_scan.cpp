@@ -71,7 +71,7 @@ void RadioParticles::start_again_if_lost(Timestamp time) noexcept {
     const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
     constexpr double most = 50; // beyond it the sum would not change
     const double ratio = cloud().mean_of([&](float x, float y) {
-        const double log = radio::log_likelihood(*grid_, readings_, noise_, x + origin.x(), y + origin.y());
+        const double log = radio::log_likelihood(*grid_, readings_, posterior_.noise(), x + origin.x(), y + origin.y());
         return std::exp(std::min(most, log - anywhere));
     });
     state_.doubt = std::max(0.0, state_.doubt - double{scan_share()} * std::log(std::max(ratio, 1e-30)));

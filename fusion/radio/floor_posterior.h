@@ -38,6 +38,7 @@ class FloorPosterior {
     /// Does not allocate. `grid` has as many corners as was said.
     FloorBelief solve(const StrengthGrid& grid, std::span<const IndexedReading> readings) noexcept;
 
+    const ReadingNoise& noise() const noexcept { return noise_; }
     /// Of the last solve(): a weight for each corner, their sum is one.
     const std::vector<float>& weights() const noexcept { return weights_; }
 
