@@ -56,7 +56,7 @@ void StrengthGrid::finish(double lost_share) noexcept {
 
 StrengthGrid::Place StrengthGrid::place(float x_site_m, float y_site_m) const noexcept {
     const auto along = [this](float value_m, double corner_m, std::size_t count) {
-        const float last = static_cast<float>(count - 1);
+        const auto last = static_cast<float>(count - 1);
         const float cells = (value_m - static_cast<float>(corner_m)) / static_cast<float>(cells_.cell_m);
         return cells >= 0 ? std::min(cells, last) : 0.0f; // what is no number is at the edge as well
     };
