@@ -25,9 +25,11 @@ class SimulatedRadios {
         constexpr int waves = 40;
         constexpr double length_m = 4; // a sum of waves of random direction: a Gaussian field, about so far alike
         for (std::size_t b = 0; b < beacons_m_.size(); ++b)
-            for (int i = 0; i < waves; ++i)
-                waves_.push_back({b, Eigen::Vector2d(normal(random_), normal(random_)) / length_m, turn(random_),
-                                  shared_db * std::sqrt(2.0 / waves)});
+            for (int i = 0; i < waves; ++i) {
+                const double y = normal(random_), x = normal(random_); // one by one: the same for every compiler
+                waves_.push_back(
+                    {b, Eigen::Vector2d(x, y) / length_m, turn(random_), shared_db * std::sqrt(2.0 / waves)});
+            }
     }
 
     double expected_dbm(std::size_t beacon, const Eigen::Vector2d& place_m) const {
