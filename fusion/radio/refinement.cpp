@@ -49,8 +49,8 @@ void Refinement::weigh(const Eigen::Vector2d& fix_m) noexcept {
 
 void Refinement::weigh_seen(const Eigen::Vector2d& fix_m, const Eigen::Vector2d& seen_m) noexcept {
     const Eigen::Vector2f fix = fix_m.cast<float>(), seen = seen_m.cast<float>();
-    const float by_seen = static_cast<float>(settings_.seen_share / settings_.seen_sigma_m);
-    const float by_fix = static_cast<float>((1 - settings_.seen_share) / settings_.fix_sigma_m);
+    const auto by_seen = static_cast<float>(settings_.seen_share / settings_.seen_sigma_m);
+    const auto by_fix = static_cast<float>((1 - settings_.seen_share) / settings_.fix_sigma_m);
     cloud_.weigh_places(
         [&](float x, float y) { return -(by_seen * distance(seen, x, y) + by_fix * distance(fix, x, y)); });
     settle();
@@ -59,8 +59,8 @@ void Refinement::weigh_seen(const Eigen::Vector2d& fix_m, const Eigen::Vector2d&
 void Refinement::weigh_unseen(const Eigen::Vector2d& fix_m, std::span<const SeenPeer> peers) noexcept {
     if (peers.empty()) return weigh(fix_m);
     const Eigen::Vector2f fix = fix_m.cast<float>();
-    const float by_fix = static_cast<float>(settings_.radio_share / settings_.fix_sigma_m);
-    const float by_peer = static_cast<float>((1 - settings_.radio_share) / static_cast<double>(peers.size()));
+    const auto by_fix = static_cast<float>(settings_.radio_share / settings_.fix_sigma_m);
+    const auto by_peer = static_cast<float>((1 - settings_.radio_share) / static_cast<double>(peers.size()));
     cloud_.weigh_places([&](float x, float y) {
         float off = 0;
         for (const SeenPeer& peer : peers)
