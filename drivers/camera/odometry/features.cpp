@@ -1,0 +1,83 @@
+#include "drivers/camera/odometry/features.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace locus::camera {
+namespace {
+
+/// ORB's own corner threshold; bare walls have only weak corners, and the strongest of a cell are kept anyway
+/// (Mur-Artal 2015, section V-A, lowers it there as well).
+constexpr int corner_threshold = 7;
+constexpr int cell_px = 32;
+/// Candidates for a place in the picture.
+constexpr int candidates = 3;
+/// Rays further from the axis have no place in an ideal camera: 1 / tan(80 degrees).
+constexpr double least_forward = 0.17;
+
+double focal_of(const vision::Lens& lens) {
+    const auto sight = vision::project(lens, {0, 0, 1});
+    return sight.has_value() ? 0.5 * (sight.value().by_ray(0, 0) + sight.value().by_ray(1, 1)) : 1;
+}
+
+} // namespace
+
+FeatureFinder::FeatureFinder(const vision::Lens& lens, const Eigen::Vector2i& size_px, int count)
+    : lens_{lens}, size_px_{size_px}, count_{count}, focal_px_{focal_of(lens)},
+      orb_{cv::ORB::create(candidates * count, static_cast<float>(octave_ratio), octaves, 31, 0, 2,
+                           cv::ORB::HARRIS_SCORE, 31, corner_threshold)} {
+    measure_half();
+}
+
+std::optional<Eigen::Vector2d> FeatureFinder::ideal_px(const Eigen::Vector2d& pixel_px) const {
+    const auto ray = vision::unproject(lens_, pixel_px);
+    if (!ray.has_value() || ray.value().z() < least_forward * ray.value().norm()) return std::nullopt;
+    return Eigen::Vector2d(focal_px_ * ray.value().hnormalized());
+}
+
+/// From the rim of the picture.
+void FeatureFinder::measure_half() {
+    const Eigen::Vector2d size_px = size_px_.cast<double>();
+    for (int i = 0; i <= 16; ++i)
+        for (const double side : {0., 1.}) {
+            for (const Eigen::Vector2d& at : {Eigen::Vector2d(i / 16., side), Eigen::Vector2d(side, i / 16.)}) {
+                const auto ideal = ideal_px(at.cwiseProduct(size_px));
+                if (ideal.has_value()) half_px_ = half_px_.cwiseMax(ideal.value().cwiseAbs());
+            }
+        }
+}
+
+/// The strongest of each cell.
+std::vector<cv::KeyPoint> FeatureFinder::spread(std::vector<cv::KeyPoint> found) const {
+    const int columns = size_px_.x() / cell_px + 1, rows = size_px_.y() / cell_px + 1;
+    const int share = std::max(1, (count_ + columns * rows - 1) / (columns * rows));
+    std::sort(found.begin(), found.end(),
+              [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
+    std::vector<int> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    std::erase_if(found, [&](const cv::KeyPoint& point) {
+        const int cell = static_cast<int>(point.pt.y) / cell_px * columns + static_cast<int>(point.pt.x) / cell_px;
+        return ++taken[static_cast<std::size_t>(cell)] > share;
+    });
+    return found;
+}
+
+Features FeatureFinder::find(const cv::Mat& grey) {
+    std::vector<cv::KeyPoint> found;
+    orb_->detect(grey, found);
+    found = spread(std::move(found));
+    cv::Mat descriptors;
+    orb_->compute(grey, found, descriptors);
+    Features features;
+    features.reserve(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto at = ideal_px({found[i].pt.x + 0.5, found[i].pt.y + 0.5});
+        if (!at.has_value()) continue;
+        Feature& feature = features.emplace_back();
+        feature.at_px = at.value();
+        feature.octave = found[i].octave;
+        std::memcpy(feature.descriptor.data(), descriptors.ptr(static_cast<int>(i)), sizeof(Descriptor));
+    }
+    return features;
+}
+
+} // namespace locus::camera
