@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 namespace locus::camera {
 namespace {
@@ -9,7 +10,6 @@ namespace {
 /// ORB's own corner threshold; bare walls have only weak corners, and the strongest of a cell are kept anyway
 /// (Mur-Artal 2015, section V-A, lowers it there as well).
 constexpr int corner_threshold = 7;
-constexpr int cell_px = 32;
 /// Candidates for a place in the picture.
 constexpr int candidates = 3;
 /// Rays further from the axis have no place in an ideal camera: 1 / tan(80 degrees).
@@ -47,16 +47,20 @@ void FeatureFinder::measure_half() {
         }
 }
 
-/// The strongest of each cell.
+/// The strongest of each cell, in each scale: cells of coarse scales are larger, but less so than what is seen in them,
+/// for coarse features stand blur and noise.
 std::vector<cv::KeyPoint> FeatureFinder::spread(std::vector<cv::KeyPoint> found) const {
-    const int columns = size_px_.x() / cell_px + 1, rows = size_px_.y() / cell_px + 1;
-    const int share = std::max(1, (count_ + columns * rows - 1) / (columns * rows));
+    double scales = 0;
+    for (int octave = 0; octave < octaves; ++octave) scales += 1 / octave_scale(octave);
+    const double finest_px = std::sqrt(size_px_.cast<double>().prod() * scales / count_);
     std::sort(found.begin(), found.end(),
               [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
-    std::vector<int> taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    std::set<std::array<int, 3>> taken;
     std::erase_if(found, [&](const cv::KeyPoint& point) {
-        const int cell = static_cast<int>(point.pt.y) / cell_px * columns + static_cast<int>(point.pt.x) / cell_px;
-        return ++taken[static_cast<std::size_t>(cell)] > share;
+        const double cell_px = finest_px * std::sqrt(octave_scale(point.octave));
+        const std::array<int, 3> cell{static_cast<int>(point.pt.x / cell_px), static_cast<int>(point.pt.y / cell_px),
+                                      point.octave};
+        return !taken.insert(cell).second;
     });
     return found;
 }
@@ -70,7 +74,9 @@ Features FeatureFinder::find(const cv::Mat& grey) {
     Features features;
     features.reserve(found.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto at = ideal_px({found[i].pt.x + 0.5, found[i].pt.y + 0.5});
+        // ORB multiplies indices of a coarse picture; what it means is the middle of that picture's pixel
+        const double half_px = 0.5 * octave_scale(found[i].octave);
+        const auto at = ideal_px({found[i].pt.x + half_px, found[i].pt.y + half_px});
         if (!at.has_value()) continue;
         Feature& feature = features.emplace_back();
         feature.at_px = at.value();

@@ -3,22 +3,15 @@
 #pragma once
 
 #include "drivers/camera/odometry/map_tracker.h"
-#include "drivers/camera/odometry/pose_search.h"
 
 namespace locus::camera {
 
 class KeyFrameChoice {
   public:
-    /// A key frame was made. How many points it sees.
-    std::size_t start(const KeyFrame& frame) {
-        pose_ = frame.pose;
-        seen_ = count_points(frame.points);
-        pictures_ = 0;
-        return seen_;
-    }
+    /// A key frame was made that saw so many points of the map.
+    void start(std::size_t seen) { seen_ = seen; }
 
     bool wants(const VisualMap& map, const Tracked& now) {
-        ++pictures_;
         const KeyFrame& newest = map.keys().rbegin()->second;
         const double way = (now.pose.centre() - newest.pose.centre()).norm();
         const double turn_rad = now.pose.camera_from_map.angularDistance(newest.pose.camera_from_map);
@@ -27,13 +20,11 @@ class KeyFrameChoice {
     }
 
   private:
-    static constexpr double least_share = 0.75;
+    static constexpr double least_share = 0.85;
     static constexpr double far = 0.08;       ///< of the depth: half of the baseline that a start takes
     static constexpr double turned_rad = 0.2; ///< a sixth of a usual picture's width
 
-    CameraPose pose_;
-    std::size_t seen_ = 0;
-    int pictures_ = 0;
+    std::size_t seen_ = 0; ///< points of the map, before the last key frame brought new ones
 };
 
 } // namespace locus::camera

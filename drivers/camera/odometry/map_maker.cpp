@@ -1,6 +1,7 @@
 #include "drivers/camera/odometry/map_maker.h"
 
 #include "drivers/camera/odometry/bundle.h"
+#include "drivers/camera/odometry/joined_sights.h"
 #include "drivers/camera/odometry/new_points.h"
 
 #include <algorithm>
@@ -42,12 +43,15 @@ std::vector<KeyId> neighbours_of(const VisualMap& map, KeyId key, std::size_t mo
     return near;
 }
 
-void look_for_new_points(VisualMap& map, KeyId newest, double focal_px) {
+void look_for_new_points(VisualMap& map, KeyId newest, const IdealCamera& camera) {
     const double depth = median_depth(map, map.key(newest));
-    for (const KeyId other : neighbours_of(map, newest, looked_at)) {
+    const auto near = neighbours_of(map, newest, looked_at);
+    for (const KeyId other : near) {
         const double way = (map.key(newest).pose.centre() - map.key(other).pose.centre()).norm();
-        if (way > least_way * depth) add_new_points(map, newest, other, focal_px);
+        if (way > least_way * depth) add_new_points(map, newest, other, camera.focal_px);
     }
+    for (const KeyId other : near) join_sights(map, newest, other, camera);
+    for (const KeyId other : near) join_sights(map, other, newest, camera);
 }
 
 /// The newest and its neighbours; two key frames at least stay, or the scale would be free.
@@ -84,7 +88,7 @@ VisualMap start_map(const Features& first, const Features& second, const TwoView
 KeyId grow_map(VisualMap& map, KeyFrame frame, const IdealCamera& camera, std::size_t most_key_frames) {
     const KeyId newest = map.add_key_frame(std::move(frame));
     remove_unproven(map, newest);
-    look_for_new_points(map, newest, camera.focal_px);
+    look_for_new_points(map, newest, camera);
     const auto window = window_around(map, newest);
     if (!window.empty()) adjust_bundle(map, window, camera.focal_px);
     while (map.keys().size() > most_key_frames) map.remove_key_frame(map.keys().begin()->first);

@@ -25,7 +25,7 @@ void VisualMap::connect(PointId point, KeyId key, std::size_t feature) {
     MapPoint& known = points_.at(point);
     frame.points[feature] = point;
     known.seen_as[key] = feature;
-    look_anew(known, frame, feature);
+    if (known.seen_as.rbegin()->first == key) look_anew(known, frame, feature);
 }
 
 void VisualMap::disconnect(PointId point, KeyId key) {

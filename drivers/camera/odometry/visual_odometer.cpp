@@ -5,6 +5,7 @@
 #include "drivers/camera/odometry/map_maker.h"
 #include "drivers/camera/odometry/map_tracker.h"
 #include "drivers/camera/odometry/motion_guess.h"
+#include "drivers/camera/odometry/pose_search.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -40,7 +41,8 @@ class VisualOdometer::Way {
         state_ = OdometerState::tracking;
         const KeyFrame& newest = map_.value().key(map_.value().newest());
         last_ = newest.points;
-        seen_ = choice_.start(newest);
+        seen_ = count_points(last_);
+        choice_.start(seen_);
         guess_.restart(newest.pose, captured);
         return newest.pose;
     }
@@ -63,7 +65,7 @@ class VisualOdometer::Way {
             const KeyId key = grow_map(map, {pose, features, std::move(seen.points)}, camera_, settings_.key_frames);
             pose = map.key(key).pose;
             last_ = map.key(key).points;
-            choice_.start(map.key(key));
+            choice_.start(seen_);
         }
         guess_.add(pose, captured);
         return pose;
