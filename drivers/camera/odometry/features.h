@@ -61,6 +61,7 @@ class FeatureFinder {
     double focal_px_ = 1;
     Eigen::Vector2d half_px_{0, 0};
     cv::Ptr<cv::ORB> orb_;
+    cv::Mat smooth_;
 };
 
 } // namespace locus::camera
