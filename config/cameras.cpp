@@ -1,4 +1,5 @@
-// Section "cameras": each a source and a detector, whose options stand side by side with the tracker's in its map.
+// Section "cameras": each a source and, side by side with its options in the same map, either a detector and a tracker
+// or, where it is worn, the odometry's.
 #include "config/names.h"
 #include "config/print_options.h"
 #include "config/section.h"
@@ -11,19 +12,20 @@ namespace {
 
 void find_parts(const YamlNode& item, CameraInputSettings& camera, Problems& problems) {
     camera.source = find_named(item.find("source"), "source", camera::frame_source_table(), problems);
-    camera.detector = find_named(item.find("detector"), "detector", camera::detector_table(), problems);
+    const bool is_worn = item.find("worn_by") != nullptr;
+    if (!is_worn) camera.detector = find_named(item.find("detector"), "detector", camera::detector_table(), problems);
     if (camera.source) camera.source_settings = camera.source->options.make();
     if (camera.detector) camera.detector_settings = camera.detector->options.make();
 }
 
 /// What may stand in the map although its table was not found.
-std::vector<std::string_view> keys_of_unknown_parts(const CameraInputSettings& camera) {
+std::vector<std::string_view> keys_of_unknown_parts(const CameraInputSettings& camera, bool is_worn) {
     std::vector<std::string_view> keys;
     const auto append = [&](const auto& table) {
         for (const auto& row : table) append_names({row.options.rows, nullptr, row.options.lists}, keys);
     };
     if (!camera.source) append(camera::frame_source_table());
-    if (!camera.detector) append(camera::detector_table());
+    if (!camera.detector && !is_worn) append(camera::detector_table());
     return keys;
 }
 
@@ -31,6 +33,14 @@ void check_detector(const YamlNode& item, const CameraInputSettings& camera, Pro
     if (!camera.detector || !camera.detector->options.check) return;
     const std::string wrong = camera.detector->options.check(camera.detector_settings.get());
     if (!wrong.empty()) problems.add(item.mark, fmt::format("camera {}: {}", shown(camera.name), wrong));
+}
+
+/// Its lens is needed: without it no way can be told at all.
+void check_worn(const YamlNode& item, const CameraInputSettings& camera, Problems& problems) {
+    if (!camera.calibration.empty()) return;
+    problems.add(item.mark, fmt::format("camera {} is worn, so it needs the calibration of its lens: `locus calibrate "
+                                        "camera chessboard` makes it",
+                                        shown(camera.name)));
 }
 
 void check_device(const YamlNode& item, const CameraInputSettings& camera, Uniques& devices, Problems& problems) {
@@ -46,11 +56,19 @@ void read_camera(const YamlNode& item, CameraInputSettings& camera, Problems& pr
         tables.push_back({table.rows, settings.get(), table.lists});
     };
     if (camera.source) bind(camera.source->options, camera.source_settings);
+    const bool is_worn = item.find("worn_by") != nullptr;
+    if (is_worn)
+        tables.push_back({camera::odometer_options, &camera.odometry});
+    else
+        tables.push_back({onlooker_options, &camera});
     if (camera.detector) bind(camera.detector->options, camera.detector_settings);
-    tables.push_back({vision::tracker_options, &camera.tracker});
+    if (!is_worn) tables.push_back({vision::tracker_options, &camera.tracker});
     const std::size_t problems_before = problems.size();
-    read_map(item, {"camera", keys_of_unknown_parts(camera)}, tables, problems);
-    if (problems.size() == problems_before) check_detector(item, camera, problems);
+    read_map(item, {"camera", keys_of_unknown_parts(camera, is_worn)}, tables, problems);
+    if (problems.size() == problems_before) {
+        check_detector(item, camera, problems);
+        if (is_worn) check_worn(item, camera, problems);
+    }
     check_one_word(item, camera.name, problems);
 }
 
@@ -74,10 +92,15 @@ std::string print_cameras(const std::vector<CameraInputSettings>& cameras) {
         const auto shown = [](const OptionTable& table, const std::shared_ptr<void>& settings) {
             return ShownOptions{table.rows, settings.get(), table.lists};
         };
-        const ShownOptions tables[]{{camera_input_options, &camera},
-                                    shown(camera.source->options, camera.source_settings),
-                                    shown(camera.detector->options, camera.detector_settings),
-                                    {vision::tracker_options, &camera.tracker}};
+        std::vector<ShownOptions> tables{{camera_input_options, &camera},
+                                         shown(camera.source->options, camera.source_settings)};
+        if (camera.is_worn()) {
+            tables.push_back({camera::odometer_options, &camera.odometry});
+        } else {
+            tables.push_back({onlooker_options, &camera});
+            tables.push_back(shown(camera.detector->options, camera.detector_settings));
+            tables.push_back({vision::tracker_options, &camera.tracker});
+        }
         text += print_block(tables, 2, true);
     }
     return text;

@@ -92,10 +92,15 @@ std::string modules(std::string_view kind, const auto& rows) {
 std::string cameras_page() {
     const CameraInputSettings defaults;
     return fmt::format(
-        "\n## cameras\n\nA list. Each item has the settings below, and beside them, in the same map, those "
-        "of its source, of its detector and of the tracker (docs/cameras.md):\n{}{}{}\n### tracker\n{}",
-        reference_table({camera_input_options, &defaults}), modules("source", camera::frame_source_table()),
-        modules("detector", camera::detector_table()), reference_table({vision::tracker_options, &defaults.tracker}));
+        "\n## cameras\n\nA list. Each item has the settings below, and beside them, in the same map, those of its "
+        "source; "
+        "those of a camera that hangs, of its detector and of the tracker (docs/cameras.md); or those of a camera that "
+        "is worn (docs/visual-odometry.md):\n{}\n### camera that hangs\n{}\n### camera that is worn\n{}{}{}\n"
+        "### tracker\n{}",
+        reference_table({camera_input_options, &defaults}), reference_table({onlooker_options, &defaults}),
+        reference_table({camera::odometer_options, &defaults.odometry}),
+        modules("source", camera::frame_source_table()), modules("detector", camera::detector_table()),
+        reference_table({vision::tracker_options, &defaults.tracker}));
 }
 
 std::string section_page(const FlatSection& section) {

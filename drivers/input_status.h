@@ -63,6 +63,7 @@ struct InputStatus {
     /// Why it is waiting; while open: a trouble that does not stop it ("can0 is error passive"). Empty when all is
     /// well.
     SharedText trouble;
+    SharedText doing;                           ///< in a sentence, where an input has more states than these
     SharedText last_error;                      ///< the newest trouble, also when it is over
     std::atomic<std::int64_t> last_error_ns{0}; ///< when it came, ns of CLOCK_MONOTONIC; 0: there was none
 };

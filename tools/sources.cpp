@@ -95,6 +95,8 @@ void print_remarks(const json& inputs) {
     for (const auto& input : inputs) {
         const std::string error = text(input, "error");
         const std::string last = text(input, "last_error");
+        const std::string doing = text(input, "doing");
+        if (!doing.empty()) fmt::print("  {}: {}\n", text(input, "name"), doing);
         if (!error.empty()) fmt::print("  {}: {}\n", text(input, "name"), toned(error, Tone::bad));
         if (error.empty() && !last.empty())
             fmt::print("  {}: well again; {} ago: {}\n", text(input, "name"),

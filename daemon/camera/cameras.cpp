@@ -17,7 +17,9 @@ std::string fingerprint_of(const CameraInputSettings& camera) {
 RunningCamera::Body::Body(const CameraInputSettings& given, std::size_t place, LogFile* to)
     : name{given.name}, source{*given.source}, source_settings{given.source_settings},
       address{static_cast<Address>(place)}, recording{to}, log{fmt::format("camera \"{}\"", given.name)},
-      onlooker{given}, device{parts()} {}
+      onlooker{given}, device{parts()} {
+    if (given.is_worn()) worn.emplace(given);
+}
 
 camera::CameraParts RunningCamera::Body::parts() {
     camera::CameraParts parts;
@@ -31,10 +33,26 @@ camera::CameraParts RunningCamera::Body::parts() {
 void RunningCamera::Body::see(const camera::Frame& frame) {
     InputStatus& status = device.status();
     status.bytes += frame.picture.pixels.size();
+    if (worn.has_value())
+        find_way(frame);
+    else
+        find_people(frame);
+}
+
+void RunningCamera::Body::find_people(const camera::Frame& frame) {
     const auto tracks = onlooker.look(frame);
-    tell_trouble();
+    tell_trouble(onlooker.trouble());
     for (const FootPoint& foot : onlooker.feet(address)) give(foot, frame.captured);
     show(frame, tracks);
+}
+
+void RunningCamera::Body::find_way(const camera::Frame& frame) {
+    WornCamera& eye = worn.value(); // NOLINT(bugprone-unchecked-optional-access): see() asked
+    const auto odometry = eye.look(frame, address);
+    device.status().doing.set(eye.doing());
+    tell_trouble(eye.trouble());
+    if (odometry.has_value()) give(odometry.value(), frame.captured);
+    show(frame, {});
 }
 
 /// Whoever asked is told after a while that nothing came.
@@ -49,8 +67,8 @@ void RunningCamera::Body::show(const camera::Frame& frame, std::span<const visio
 }
 
 /// A recording gets it as a line of bytes, stamped when it came, as if a device had sent it.
-void RunningCamera::Body::give(const FootPoint& foot, Timestamp time) {
-    const Measurement measurement{time, sequence++, 0, foot};
+void RunningCamera::Body::give(const Observation& observation, Timestamp time) {
+    const Measurement measurement{time, sequence++, 0, observation};
     ++device.status().measurements;
     if (!ring.push(measurement)) ++device.status().ring_dropped;
     if (recording == nullptr) return;
@@ -61,9 +79,9 @@ void RunningCamera::Body::give(const FootPoint& foot, Timestamp time) {
     recording->write_line(to_log_line(name, packet));
 }
 
-void RunningCamera::Body::tell_trouble() {
-    if (onlooker.trouble() == told) return;
-    told = onlooker.trouble();
+void RunningCamera::Body::tell_trouble(const std::string& trouble) {
+    if (trouble == told) return;
+    told = trouble;
     InputStatus& status = device.status();
     status.trouble.set(told);
     if (!told.empty()) {
@@ -82,7 +100,8 @@ RunningCamera::RunningCamera(const CameraInputSettings& settings, std::size_t pl
 std::vector<InputEntry> entries(const CameraSet& cameras) {
     std::vector<InputEntry> entries;
     for (const auto& [settings, fingerprint, running] : cameras.slots())
-        entries.push_back({settings.name, std::string{settings.source->name}, std::string{settings.detector->name},
+        entries.push_back({settings.name, std::string{settings.source->name},
+                           settings.is_worn() ? "odometry" : std::string{settings.detector->name},
                            running ? running->status() : nullptr, running ? running->view() : nullptr});
     return entries;
 }

@@ -1,10 +1,11 @@
 // One camera at work: a thread that takes frames, finds the people in them and puts their foot points into a ring, as
-// an input does with its measurements. Finding people takes a core for a while, so it never runs at the priority of
-// inputs.
+// an input does with its measurements; or its own way, where it is worn. Either takes a core for a while, so it never
+// runs at the priority of inputs.
 #pragma once
 
 #include "daemon/camera/onlooker.h"
 #include "daemon/camera/viewfinder.h"
+#include "daemon/camera/worn_camera.h"
 #include "daemon/event_log.h"
 #include "daemon/realtime.h"
 #include "daemon/running_set.h"
@@ -12,6 +13,8 @@
 #include "drivers/camera/camera.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -20,7 +23,7 @@ namespace locus {
 /// Destroyed, it has stopped.
 class RunningCamera {
   public:
-    /// `place` in the settings is its address. `recording` gets every foot point; null: none is kept.
+    /// `place` in the settings is its address. `recording` gets every measurement; null: none is kept.
     RunningCamera(const CameraInputSettings& settings, std::size_t place, LogFile* recording);
 
     void request_stop() { thread_.request_stop(); }
@@ -38,8 +41,10 @@ class RunningCamera {
         Body(const CameraInputSettings& given, std::size_t place, LogFile* to);
         camera::CameraParts parts();
         void see(const camera::Frame& frame);
-        void give(const FootPoint& foot, Timestamp time);
-        void tell_trouble();
+        void find_people(const camera::Frame& frame);
+        void find_way(const camera::Frame& frame);
+        void give(const Observation& observation, Timestamp time);
+        void tell_trouble(const std::string& trouble);
         void show(const camera::Frame& frame, std::span<const vision::ImageTrack> tracks);
 
         std::string name;
@@ -49,8 +54,9 @@ class RunningCamera {
         LogFile* recording;
         EventLog log;
         Onlooker onlooker;
+        std::optional<WornCamera> worn; ///< then nobody looks on
         Viewfinder view;
-        std::string told; ///< the onlooker's trouble that was told last
+        std::string told; ///< trouble that was told last
         std::uint32_t sequence = 0;
         MeasurementRing ring;
         camera::Camera device;

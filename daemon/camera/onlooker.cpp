@@ -1,11 +1,11 @@
 #include "daemon/camera/onlooker.h"
 
 #include "config/camera_calibration.h"
+#include "daemon/camera/image_shape.h"
 #include "drivers/clock.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace locus {
@@ -15,9 +15,6 @@ constexpr Duration try_again_after = std::chrono::seconds{5};
 /// Nobody begins a track a second for long: so numbers that were given before a reload, which the engine may still
 /// know, are not given again.
 std::uint32_t fresh_track_number() { return static_cast<std::uint32_t>(to_s(monotonic_now())); }
-
-/// Of height over width, between the frames and the images of the calibration: one is a cut-out of the other.
-constexpr double same_shape = 0.01;
 
 vision::BodyHeight body_of(const CameraInputSettings& settings) {
     return {settings.person_height_m, settings.person_height_sigma_m};
@@ -70,12 +67,8 @@ void Onlooker::read_calibration(const camera::Picture& picture) {
         return;
     }
     const Eigen::Vector2d size_px(picture.width_px, picture.height_px), made_px = calibration.value().image_px;
-    if (std::abs(size_px.y() / size_px.x() * made_px.x() / made_px.y() - 1) > same_shape) {
-        trouble_ = fmt::format("{} was made with images of {:g}x{:g}, but the camera gives {:g}x{:g}, which is another "
-                               "shape: calibrate it with this size, or set the other one",
-                               settings_.calibration, made_px.x(), made_px.y(), size_px.x(), size_px.y());
-        return;
-    }
+    trouble_ = trouble_of_shape(settings_.calibration, made_px, size_px);
+    if (!trouble_.empty()) return;
     floor_ = config::view_for(calibration.value(), size_px);
 }
 

@@ -110,6 +110,7 @@ ordered_json input_json(const InputEntry& input, const InputRates& rates, Timest
     if (!input.status) return object;
     const InputStatus& status = *input.status;
     object["error"] = status.trouble.get();
+    if (const std::string doing = status.doing.get(); !doing.empty()) object["doing"] = doing;
     put_last_error(object, status, now);
     object["bytes"] = status.bytes.load();
     object["packets"] = status.packets.load();

@@ -57,6 +57,26 @@ TEST(Cameras, ThatCannotBeAreRefusedWithASentence) {
     EXPECT_NE(first_problem("cameras: [" + one + ", " + one + "]").find("second"), std::string::npos);
 }
 
+TEST(Cameras, ThatAreWornTellTheWearersWay) {
+    const auto loaded =
+        load_settings_text("site: {name: hall}\ncameras: [{name: body, source: v4l2, path: /dev/video0, "
+                           "worn_by: 0x10, calibration: /lens.yaml, features: 1500}]",
+                           "f");
+    ASSERT_TRUE(loaded.settings.has_value()) << to_string(loaded.problems.at(0));
+    const CameraInputSettings& camera = loaded.settings.value().cameras.at(0);
+    EXPECT_TRUE(camera.is_worn());
+    EXPECT_EQ(camera.worn_by, address(16));
+    EXPECT_EQ(camera.odometry.features, 1500U);
+    EXPECT_EQ(camera.detector, nullptr);
+}
+
+TEST(Cameras, ThatAreWornNeedALensAndNoDetector) {
+    const std::string worn = "cameras: [{name: a, source: v4l2, path: /dev/video0, worn_by: 16";
+    EXPECT_NE(first_problem(worn + "}]").find("calibrate camera chessboard"), std::string::npos);
+    EXPECT_NE(first_problem(worn + ", calibration: /l.yaml, detector: motion}]").find("detector"), std::string::npos);
+    EXPECT_NE(first_problem(worn + ", calibration: /l.yaml, lost_s: 4}]").find("lost_s"), std::string::npos);
+}
+
 TEST(Cameras, AndInputsHaveNamesOfTheirOwn) {
     EXPECT_NE(first_problem("inputs: [{name: a, transport: tcp, host: h, port: 1, decoder: nmea, tag: 5}]\n"
                             "cameras: [{name: a, source: recorded, path: /x.avi, detector: motion}]")

@@ -91,9 +91,17 @@ CameraInputSettings any_camera(std::size_t index) {
     camera.name = any_name(100 + index); // inputs have the others
     const auto sources = camera::frame_source_table();
     camera.source = &sources[*rc::gen::inRange<std::size_t>(0, sources.size())];
+    camera.source_settings = any_settings_of(camera.source->options);
+    if (*rc::gen::arbitrary<bool>()) {
+        camera.worn_by = address(index);
+        camera.calibration = "/etc/locusd/lens.yaml";
+        fill(camera::odometer_options, &camera.odometry);
+        return camera;
+    }
+    camera.worn_by = no_address;
+    fill(onlooker_options, &camera);
     const auto detectors = camera::detector_table();
     camera.detector = &detectors[*rc::gen::inRange<std::size_t>(0, detectors.size())];
-    camera.source_settings = any_settings_of(camera.source->options);
     camera.detector_settings = any_settings_of(camera.detector->options);
     fill(vision::tracker_options, &camera.tracker);
     return camera;

@@ -38,6 +38,8 @@ void for_each_row(const Visit& visit) {
     plain("target", target_options, TargetSettings{});
     plain("input", input_options, InputSettings{});
     plain("camera", camera_input_options, CameraInputSettings{});
+    plain("camera that hangs", onlooker_options, CameraInputSettings{});
+    plain("camera that is worn", camera::odometer_options, camera::OdometerSettings{});
     plain("tracker", vision::tracker_options, vision::TrackerSettings{});
     Settings settings;
     for (const auto& section : config::flat_sections())
@@ -104,12 +106,21 @@ TEST(Tables, OfOneCameraShareNoKey) {
     for (const auto& source : camera::frame_source_table())
         for (const auto& detector : camera::detector_table()) {
             std::set<std::string_view> keys;
-            for (const Options rows : {Options(camera_input_options), source.options.rows, detector.options.rows,
-                                       Options(vision::tracker_options)})
+            for (const Options rows : {Options(camera_input_options), Options(onlooker_options), source.options.rows,
+                                       detector.options.rows, Options(vision::tracker_options)})
                 for (const auto& row : rows)
                     EXPECT_TRUE(keys.insert(row.name).second)
                         << source.name << ", " << detector.name << ": " << row.name;
         }
+}
+
+TEST(Tables, OfOneWornCameraShareNoKey) {
+    for (const auto& source : camera::frame_source_table()) {
+        std::set<std::string_view> keys;
+        for (const Options rows :
+             {Options(camera_input_options), source.options.rows, Options(camera::odometer_options)})
+            for (const auto& row : rows) EXPECT_TRUE(keys.insert(row.name).second) << source.name << ": " << row.name;
+    }
 }
 
 } // namespace
