@@ -1,6 +1,7 @@
 // A radio map from the disk and to it.
 #include "config/file_text.h"
 #include "config/radio_map.h"
+#include "config/radio_map_versions.h"
 #include "config/yaml_tree.h"
 #include "fusion/estimators/radio_particles.h"
 
@@ -68,6 +69,17 @@ void write_radio_map(const std::string& path, const radio::RadioMap& map) {
     if (std::rename(beside.c_str(), path.c_str()) != 0) cannot_write(path);
 }
 
+std::string radio_maps_text(const std::vector<EstimatorSettings>& estimators) {
+    std::string text;
+    for (const EstimatorSettings& each : estimators) {
+        if (each.row->name != radio_particles_row.name) continue;
+        const auto& radio = *static_cast<const RadioParticlesSettings*>(each.settings.get());
+        const auto& map = radio.surveyed_map ? radio.surveyed_map : radio.radio_map;
+        if (map) text += radio_map_yaml(*map);
+    }
+    return text;
+}
+
 void load_radio_maps(std::vector<EstimatorSettings>& estimators, const std::filesystem::path& folder,
                      std::vector<ConfigProblem>& problems) {
     for (EstimatorSettings& each : estimators) {
@@ -78,6 +90,11 @@ void load_radio_maps(std::vector<EstimatorSettings>& estimators, const std::file
         if (!map.has_value()) continue;
         const auto own = std::make_shared<RadioParticlesSettings>(given);
         own->radio_map = std::make_shared<const radio::RadioMap>(std::move(map.value()));
+        if (!given.calibrated_map.empty()) {
+            own->calibrated_map = (folder / given.calibrated_map).string();
+            own->grid = std::make_shared<radio::GridInUse>();
+            load_taught_map(*own);
+        }
         each.settings = own;
     }
 }

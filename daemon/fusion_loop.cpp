@@ -2,6 +2,7 @@
 
 #include "daemon/realtime.h"
 #include "drivers/clock.h"
+#include "fusion/identity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +51,11 @@ void FusionLoop::cycle(Timestamp tick) noexcept {
     const Duration late = monotonic_now() - tick;
     ++ticks_;
     overruns_ += late > schedule_.period();
+    adopt_grid();
     drain_inputs();
     publish_poses(tick);
     publish_sources();
+    publish_lessons();
     publish_tick(tick, late);
     ticked_.raise();
 }
@@ -65,7 +68,15 @@ void FusionLoop::drain_inputs() noexcept {
             if (!input.ring->pop(measurement)) break;
             measurement.input = input.index;
             plan_->engine->submit(measurement, monotonic_now()); // read after the pop: never before the stamp
+            publish_reading(measurement);
         }
+}
+
+void FusionLoop::publish_reading(const Measurement& measurement) noexcept {
+    const auto* strength = std::get_if<SignalStrength>(&measurement.observation);
+    if (strength == nullptr || !std::isfinite(strength->rssi_dbm)) return;
+    for (const Delivery& delivery : deliveries_of(measurement, plan_->engine->settings().site))
+        output_.readings.push({measurement.time, *delivery.tag, delivery.sources[0], strength->rssi_dbm});
 }
 
 void FusionLoop::publish_poses(Timestamp tick) noexcept {
@@ -103,6 +114,10 @@ void FusionLoop::publish_sources() noexcept {
     }
 }
 
+void FusionLoop::publish_lessons() noexcept {
+    for (const radio::Lesson& lesson : plan_->engine->take_lessons()) output_.lessons.push(lesson);
+}
+
 void FusionLoop::publish_tick(Timestamp tick, Duration late) noexcept {
     TickItem item;
     item.generation = plan_->generation;
@@ -126,6 +141,13 @@ void FusionLoop::adopt_plan() noexcept {
     show_all_sources_ = true;
     if (next->priority != plan_->priority) apply_scheduling();
     retired.give(next); // never full: the main thread has at most one plan on its way
+}
+
+void FusionLoop::adopt_grid() noexcept {
+    auto next = grids.take();
+    if (!next) return;
+    next->in_use->exchange(next->grid); // refused: what comes back is the same again
+    retired_grids.give(next);           // never full: at most one is on its way
 }
 
 void FusionLoop::apply_scheduling() noexcept {

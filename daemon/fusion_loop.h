@@ -7,12 +7,19 @@
 #include "daemon/handover.h"
 #include "daemon/tick_schedule.h"
 #include "daemon/wake.h"
+#include "fusion/radio/grid_in_use.h"
 
 #include <atomic>
 #include <memory>
 #include <stop_token>
 
 namespace locus {
+
+/// A grid for where another is in use; back comes what was.
+struct NewGrid {
+    std::shared_ptr<radio::GridInUse> in_use;
+    radio::GridInUse::Shared grid;
+};
 
 class FusionLoop {
   public:
@@ -25,8 +32,10 @@ class FusionLoop {
     /// All that happens at one tick. run() calls it; tests call it alone.
     void cycle(Timestamp tick) noexcept;
 
-    Handover<FusionPlan> plans;   ///< main thread -> here
-    Handover<FusionPlan> retired; ///< here -> main thread, to be freed
+    Handover<FusionPlan> plans;      ///< main thread -> here
+    Handover<FusionPlan> retired;    ///< here -> main thread, to be freed
+    Handover<NewGrid> grids;         ///< who keeps the radio map -> here
+    Handover<NewGrid> retired_grids; ///< here -> who keeps the radio map
 
     /// Any thread. Moves at least ten times a second while run() is well.
     std::uint64_t heartbeat() const { return heartbeat_.load(std::memory_order_relaxed); }
@@ -41,10 +50,13 @@ class FusionLoop {
   private:
     bool wait_until(Timestamp tick, const std::stop_token& stop);
     void adopt_plan() noexcept;
+    void adopt_grid() noexcept;
     void apply_scheduling() noexcept;
     void drain_inputs() noexcept;
+    void publish_reading(const Measurement& measurement) noexcept;
     void publish_poses(Timestamp tick) noexcept;
     void publish_sources() noexcept;
+    void publish_lessons() noexcept;
     void publish_tick(Timestamp tick, Duration late) noexcept;
 
     std::unique_ptr<FusionPlan> plan_;

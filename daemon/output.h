@@ -1,9 +1,10 @@
-// What the fusion thread hands to the publisher: three rings and nothing else.
+// What the fusion thread hands out: rings and nothing else; four to the publisher, one to who keeps the radio map.
 #pragma once
 
 #include "fusion/aid_status.h"
 #include "fusion/engine.h"
 #include "fusion/pose.h"
+#include "fusion/radio/lesson.h"
 #include "fusion/ring.h"
 
 namespace locus {
@@ -35,11 +36,23 @@ struct TickItem {
     EngineCounters engine;
 };
 
+/// How strongly a tag's radio and a beacon heard each other, for those who survey.
+struct ReadingItem {
+    Timestamp time{};
+    Address tag = no_address;
+    Address beacon = no_address;
+    float rssi_dbm = 0;
+};
+
+using LessonRing = Ring<radio::Lesson, 4096>;
+
 /// The largest settings (4096 targets) fit into one tick; what does not fit is dropped and counted by the ring.
 struct FusionOutput {
     Ring<PoseItem, 8192> poses;
     Ring<SourceItem, 2048> sources;
     Ring<TickItem, 2048> ticks;
+    Ring<ReadingItem, 4096> readings;
+    LessonRing lessons; ///< stays full where nobody keeps a map
 };
 
 } // namespace locus

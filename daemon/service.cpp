@@ -1,5 +1,6 @@
 #include "daemon/service.h"
 
+#include "config/radio_map.h"
 #include "daemon/log.h"
 #include "daemon/realtime.h"
 #include "drivers/clock.h"
@@ -21,7 +22,8 @@ constexpr Duration ready_at_the_latest = std::chrono::seconds{5};
 std::string engine_text(const Settings& settings) {
     Settings only;
     only.engine = settings.engine;
-    return fmt::format("{}# {} cameras", print_settings(only), settings.engine.cameras);
+    return fmt::format("{}# {} cameras\n{}", print_settings(only), settings.engine.cameras,
+                       config::radio_maps_text(settings.engine.estimators));
 }
 
 /// Empty when no target is to be told; that it is known and the site anchored was checked when the settings were read.
@@ -50,6 +52,7 @@ Service::Service(Settings settings, std::string config, Listener listener, LogFi
         fusion_.run(stop);
     }};
     put_in_force(settings_, nullptr);
+    keep_map();
 }
 
 Service::~Service() {
@@ -57,13 +60,15 @@ Service::~Service() {
     publisher_thread_.request_stop();
     inputs_.stop();
     cameras_.stop();
+    map_keeper_.reset();
     flush_recording();
 }
 
 /// Settings that were checked come into force; `engine` null: the one in use stays.
 void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
     settings_ = std::move(settings);
-    if (engine) ++generation_;
+    const bool is_new_engine = engine != nullptr;
+    if (is_new_engine) ++generation_;
     const int priority = beside_fusion(settings_.realtime.priority);
     inputs_.apply(settings_.inputs, priority);
     cameras_.apply(settings_.cameras, priority);
@@ -74,6 +79,14 @@ void Service::put_in_force(Settings settings, std::unique_ptr<Engine> engine) {
     auto names = roster();
     post_.rosters.give(names);
     post_.publisher.raise();
+    if (is_new_engine) keep_map();
+}
+
+/// Of the settings that the engine is made of: it reads the grid that they have.
+void Service::keep_map() {
+    map_keeper_.reset(); // writes down what was taught
+    map_keeper_ = MapKeeper::make(settings_.engine, output_.lessons, fusion_);
+    if (map_keeper_) map_keeper_->start();
 }
 
 std::unique_ptr<FusionPlan> Service::plan(std::unique_ptr<Engine> engine) const {

@@ -7,6 +7,7 @@
 #include "daemon/fusion_loop.h"
 #include "daemon/inputs.h"
 #include "daemon/manager.h"
+#include "daemon/radio/map_keeper.h"
 #include "daemon/signals.h"
 #include "daemon/socket/listener.h"
 #include "daemon/socket/publisher.h"
@@ -42,6 +43,7 @@ class Service {
     std::unique_ptr<const Roster> roster() const;
     std::unique_ptr<Engine> engine_if_changed(const Settings& settings) const;
     void put_in_force(Settings settings, std::unique_ptr<Engine> engine);
+    void keep_map();
     void lock();
 
     void wait(const Signals& signals) const;
@@ -75,6 +77,7 @@ class Service {
     CameraSet cameras_;
     FusionLoop fusion_;
     Publisher publisher_;
+    std::unique_ptr<MapKeeper> map_keeper_; ///< null: no map is to change
     std::jthread fusion_thread_;
     std::jthread publisher_thread_;
 };

@@ -7,6 +7,7 @@
 #include "fusion/geometry/error_bound.h"
 #include "fusion/gnss/receivers.h"
 #include "fusion/identity.h"
+#include "fusion/radio/teachers.h"
 #include "fusion/target_table.h"
 #include "fusion/uwb/clock_sync/synchroniser.h"
 #include "fusion/vision/foot_points.h"
@@ -79,7 +80,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
           witnesses(targets, settings.cameras > 0),
           feet(settings.vision, settings.cameras, targets.room(), longest_wait(settings.fusion),
                duration_from_s(settings.fusion.lost_after_s)),
-          seen(targets.room()) {
+          teachers(targets.room()), seen(targets.room()) {
         const auto targets_at_most = static_cast<std::size_t>(settings.fusion.max_targets);
         poses.reserve(targets_at_most);
         const auto ticks = std::lround(settings.fusion.smooth_lag_s * settings.fusion.rate_hz);
@@ -117,6 +118,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
     gnss::Receivers receivers;
     vision::Witnesses witnesses;
     vision::FootPoints feet;
+    radio::Teachers teachers;
     struct Seen {
         SeenAs as;
         Timestamp told = timestamp_from_ns(std::numeric_limits<std::int64_t>::min() / 2);
@@ -171,6 +173,8 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     if (reason != Exclusion::none) return reason;
     witnesses.hear(slot, told, key);
     anchors.hear(slot, measurement);
+    if (const auto* strength = std::get_if<SignalStrength>(&measurement.observation))
+        teachers.hear(slot, {delivery.sources[0], strength->rssi_dbm}, measurement.time);
     return reason;
 }
 
@@ -184,6 +188,7 @@ void Engine::Impl::give(const Measurement& foot, const AidBook::Record& record,
     const Delivery delivery{owner.target, SourceKind::camera, {point.camera, no_address}, 1};
     if (reason == Exclusion::none) reason = targets.timeline(slot).insert(foot, key_of(foot, delivery), record);
     if (reason != Exclusion::none) return judge(foot, record, reason);
+    teachers.see(slot, point, owner.confidence, foot.time);
     seen[slot] = {{point.camera, point.track, static_cast<float>(owner.confidence)}, now};
 }
 
@@ -265,6 +270,7 @@ std::span<const Pose> Engine::step(Timestamp tick) noexcept {
 }
 
 std::span<const Pose> Engine::smoothed() const noexcept { return impl_->smoothed; }
+std::span<const radio::Lesson> Engine::take_lessons() noexcept { return impl_->teachers.take(); }
 std::span<const AidStatus> Engine::sources() const noexcept { return impl_->book.sources(); }
 const EngineCounters& Engine::counters() const noexcept { return impl_->book.total(); }
 const EngineSettings& Engine::settings() const noexcept { return impl_->settings; }

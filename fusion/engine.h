@@ -7,6 +7,7 @@
 #include "fusion/gnss/settings.h"
 #include "fusion/option.h"
 #include "fusion/pose.h"
+#include "fusion/radio/lesson.h"
 #include "fusion/site.h"
 #include "fusion/uwb/anchor_health_settings.h"
 #include "fusion/uwb/clock_sync/settings.h"
@@ -96,6 +97,10 @@ class Engine {
     /// Of the last step(), with smooth_lag_s set: where each target was that long before, by what came since as well.
     /// Targets that have not been followed that long without a jump are left out.
     std::span<const Pose> smoothed() const noexcept;
+
+    /// What those taught of the radio map, since the last call, whom cameras saw. Valid until the next submit() or
+    /// step(); whoever keeps no map need not call it.
+    std::span<const radio::Lesson> take_lessons() noexcept;
 
     std::span<const AidStatus> sources() const noexcept;
     const EngineCounters& counters() const noexcept;

@@ -1,10 +1,10 @@
-// locus survey: a radio map from recordings of somebody who walks about.
-#include "config/load.h"
+// locus survey: a radio map of somebody who walks about, from recordings or from the running daemon.
 #include "config/radio_map.h"
 #include "tools/client/command.h"
 #include "tools/settings_file.h"
 #include "tools/show/terminal.h"
 #include "tools/survey/collect.h"
+#include "tools/survey/live.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -21,8 +21,11 @@ using tools::complain;
 struct SurveyOptions {
     survey::Request request;
     std::string config, output;
+    std::string socket = tools::ClientOptions{}.socket;
+    std::vector<std::string> targets;
     std::vector<double> at;
-    bool overwrite = false;
+    double seconds = 0;
+    bool live = false, overwrite = false;
 };
 
 /// Reads back what will be written, so that nothing is written that cannot be used.
@@ -32,17 +35,54 @@ void check_map(const radio::RadioMap& map) {
         throw std::runtime_error(to_string(problems.take().front()));
 }
 
-void write_map(const SurveyOptions& options) {
-    if (!options.overwrite && std::filesystem::exists(options.output))
-        throw std::runtime_error("'" + options.output + "' is there already; --force overwrites it");
+survey::Collected from_recordings(const SurveyOptions& options) {
     const auto settings = options.config.empty() ? std::optional(Settings{}) : tools::settings_of_file(options.config);
     if (!settings.has_value()) throw std::runtime_error("the settings cannot be used");
-    const survey::Collected collected = survey::collect(options.request, settings.value());
+    survey::Collected collected = survey::collect(options.request, settings.value());
     if (collected.readings == 0)
         throw std::runtime_error(
-            fmt::format("no signal strength with a pose at its time was found ({} without one, {} bad "
-                        "lines)",
+            fmt::format("no signal strength with a pose at its time was found ({} without one, {} bad lines)",
                         collected.unplaced, collected.bad_lines));
+    return collected;
+}
+
+/// What is wrong is said while somebody walks, not when he has come back.
+void tell_progress(const survey::LiveProgress& progress, bool stood) {
+    const bool blind = !stood && progress.poses == 0 && progress.poses_by_radio > 0;
+    const std::string place = stood   ? "standing where --at says"
+                              : blind ? "no pose but of signal strength itself: a map cannot be learnt from that"
+                                      : fmt::format("{} poses", progress.poses);
+    complain(fmt::format("{} readings, {}; Ctrl-C writes the map", progress.readings, place));
+}
+
+survey::Collected from_daemon(const SurveyOptions& options) {
+    tools::Client client(options.socket);
+    const auto& stood_site_m = options.request.stood_site_m;
+    const survey::LiveRequest request{options.targets, options.seconds, stood_site_m, options.request.cell_m,
+                                      options.request.heading};
+    survey::Collected collected = survey::survey_live(client, request, [&](const survey::LiveProgress& progress) {
+        tell_progress(progress, stood_site_m.has_value());
+    });
+    if (collected.readings == 0)
+        throw std::runtime_error(
+            fmt::format("{} signal strengths were heard, none with a pose at its time: does a target carry the radio "
+                        "and a sensor that tells its place (`locus targets`)? Who stands says where with --at",
+                        collected.unplaced));
+    return collected;
+}
+
+void check_options(const SurveyOptions& options) {
+    if (!options.overwrite && std::filesystem::exists(options.output))
+        throw std::runtime_error("'" + options.output + "' is there already; --force overwrites it");
+    if (options.live == !options.request.recordings.empty())
+        throw std::runtime_error("give recordings, or --live for the running daemon");
+    if (options.live && !options.request.poses.empty())
+        throw std::runtime_error("--poses belongs to recordings; the daemon tells its own");
+}
+
+void write_map(const SurveyOptions& options) {
+    check_options(options);
+    const survey::Collected collected = options.live ? from_daemon(options) : from_recordings(options);
     check_map(collected.map);
     config::write_radio_map(options.output, collected.map);
     fmt::print("{} readings of {} beacons at {} points -> {}\n", collected.readings,
@@ -56,6 +96,9 @@ int run_survey(SurveyOptions& options) {
     try {
         write_map(options);
         return exit_yes;
+    } catch (const tools::DaemonError& error) {
+        complain(error.what());
+        return exit_no_daemon;
     } catch (const std::exception& error) {
         complain(error.what());
         return exit_usage;
@@ -68,9 +111,19 @@ std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono:
 
 void add_survey(CLI::App& root, int& exit_code) {
     auto options = std::make_shared<SurveyOptions>();
-    options->request.date = today();
-    CLI::App& app = *root.add_subcommand("survey", "Makes a radio map of recordings and poses");
-    app.add_option("FILE", options->request.recordings, "Recordings with signal strengths (.jsonl, .log)")->required();
+    options->request.heading.date = today();
+    CLI::App& app = *root.add_subcommand("survey", "Makes a radio map of recordings and poses, or of a walk under way");
+    app.add_option("FILE", options->request.recordings, "Recordings with signal strengths (.jsonl, .log)");
+    app.add_flag("--live", options->live, "Ask the running daemon, until Ctrl-C");
+    app.add_option("--target", options->targets, "With --live: only this target; can be given again")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    app.add_option("--seconds", options->seconds, "With --live: stop after so long")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    app.add_option("--socket", options->socket, "With --live: the daemon's socket")
+        ->capture_default_str()
+        ->type_name("PATH");
     app.add_option(
            "--poses", options->request.poses,
            "Where the radio was: poses of `locus replay` or a truth (TUM), one file for each recording or for all")
@@ -84,14 +137,15 @@ void add_survey(CLI::App& root, int& exit_code) {
     app.add_option("--cell", options->request.cell_m, "Width of a cell that becomes a point of the map; left out: 2 m")
         ->check(CLI::Range(0.1, 100.0))
         ->type_name("M");
-    app.add_option("--site", options->request.site, "Name of the site, for the file");
-    app.add_option("--device", options->request.device, "What it was heard with, for the file");
-    app.add_option("--date", options->request.date, "When, for the file; left out: today");
+    app.add_option("--site", options->request.heading.site, "Name of the site, for the file");
+    app.add_option("--device", options->request.heading.device, "What it was heard with, for the file");
+    app.add_option("--date", options->request.heading.date, "When, for the file; left out: today");
     app.add_flag("--force", options->overwrite, "Overwrite the map when it is there already");
-    app.footer("Example:\n  locus replay walk.log --config hall.yaml --poses walk.tum\n"
+    app.footer("Examples:\n  locus survey --live --target anna --site hall -o hall-map.yaml\n  locus replay walk.log "
+               "--config hall.yaml --poses walk.tum\n"
                "  locus survey walk.log --config hall.yaml --poses walk.tum --site hall -o hall-map.yaml\n"
                "Then name hall-map.yaml in the settings: estimators: {radio_particles: {map: hall-map.yaml}}.\n"
-               "Exit codes: 0 written, 2 it could not be.");
+               "Exit codes: 0 written, 2 it could not be, 3 the daemon cannot be reached.");
     app.callback([options, &exit_code] { exit_code = run_survey(*options); });
 }
 

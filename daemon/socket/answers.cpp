@@ -167,6 +167,7 @@ std::string version_line(const Roster& roster) {
 std::string watch_line(const Watch& watch) {
     ordered_json object{{"class", "WATCH"}, {"enable", watch.enable}, {"poses", watch.poses}};
     if (watch.smoothed) object["smoothed"] = true;
+    if (watch.readings) object["readings"] = true;
     if (watch.rate_hz > 0) object["rate_hz"] = watch.rate_hz;
     if (!watch.targets.empty()) object["targets"] = watch.targets;
     return line(object);

@@ -74,6 +74,7 @@ ParsedCommand parse_watch(std::string_view text) {
     if (auto bad = read_flag(options, "enable", watch.enable)) return *bad;
     if (auto bad = read_flag(options, "poses", watch.poses)) return *bad;
     if (auto bad = read_flag(options, "smoothed", watch.smoothed)) return *bad;
+    if (auto bad = read_flag(options, "readings", watch.readings)) return *bad;
     if (auto bad = read_rate(options, watch.rate_hz)) return *bad;
     if (auto bad = read_targets(options, watch.targets)) return *bad;
     return Command{.verb = Verb::watch, .watch = std::move(watch)};
@@ -95,6 +96,10 @@ bool Watch::wants(std::string_view target) const {
 
 bool Watch::wants_smoothed(std::string_view target) const {
     return enable && smoothed && (targets.empty() || std::ranges::find(targets, target) != targets.end());
+}
+
+bool Watch::wants_readings(std::string_view target) const {
+    return enable && readings && (targets.empty() || std::ranges::find(targets, target) != targets.end());
 }
 
 ParsedCommand parse_command(std::string_view text) {

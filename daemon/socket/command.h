@@ -16,11 +16,13 @@ struct Watch {
     bool enable = false;
     bool poses = true;
     bool smoothed = false;            ///< also those of fusion.smooth_lag_s ago
+    bool readings = false;            ///< also what radios heard
     double rate_hz = 0;               ///< poses of one target per second at most; 0: all
     std::vector<std::string> targets; ///< by name; empty: all
 
     bool wants(std::string_view target) const;
     bool wants_smoothed(std::string_view target) const;
+    bool wants_readings(std::string_view target) const;
     bool operator==(const Watch&) const = default;
 };
 

@@ -2,6 +2,7 @@
 
 #include "daemon/socket/answers.h"
 #include "daemon/socket/pose_line.h"
+#include "daemon/socket/reading_line.h"
 #include "drivers/clock.h"
 
 #include <spdlog/spdlog.h>
@@ -190,6 +191,7 @@ void Publisher::follow_roster() try {
 
 void Publisher::take_output() {
     for (PoseItem item; output_.poses.pop(item);) take_pose(item);
+    for (ReadingItem item; output_.readings.pop(item);) take_reading(item);
     for (SourceItem item; output_.sources.pop(item);) take_source(item);
     for (TickItem item; output_.ticks.pop(item);) picture_.take(item);
 }
@@ -224,6 +226,16 @@ void Publisher::take_pose(const PoseItem& item) {
         if (!is_due(view.previous, view.pose.estimate.time, client.watch.rate_hz)) continue;
         if (!line)
             line = std::make_shared<const std::string>(open_pose_line(view.pose, roster_->names, view.reset_count()));
+        client.queue.push_pose(line);
+    }
+}
+
+void Publisher::take_reading(const ReadingItem& item) {
+    const std::string name = roster_->names.target(item.tag);
+    OpenLine line;
+    for (auto& [id, client] : clients_) {
+        if (!client.watch.wants_readings(name)) continue;
+        if (!line) line = std::make_shared<const std::string>(open_reading_line(item, roster_->names));
         client.queue.push_pose(line);
     }
 }

@@ -58,6 +58,7 @@ class Publisher {
     void take_output();
     void take_pose(const PoseItem& item);
     void take_smoothed(const Pose& pose);
+    void take_reading(const ReadingItem& item);
     void take_source(const SourceItem& item);
 
     Listener listener_;

@@ -47,10 +47,16 @@ std::shared_ptr<const radio::StrengthGrid> path_loss_grid(const Site& site, cons
 
 } // namespace
 
-std::shared_ptr<const radio::StrengthGrid> make_radio_grid(const Site& site, const RadioParticlesSettings& settings) {
-    if (settings.radio_map == nullptr) return path_loss_grid(site, settings);
-    return std::make_shared<const radio::StrengthGrid>(
-        radio::gaussian_field(*settings.radio_map, {settings.lost_share, most_radio_corners}));
+radio::GridInUse::Shared map_grid(const radio::RadioMap& map, double lost_share) {
+    return std::make_shared<const radio::StrengthGrid>(radio::gaussian_field(map, {lost_share, most_radio_corners}));
+}
+
+std::shared_ptr<const radio::GridInUse> make_radio_grid(const Site& site, const RadioParticlesSettings& settings) {
+    const auto in_use = settings.grid ? settings.grid : std::make_shared<radio::GridInUse>();
+    if (in_use->is_empty())
+        in_use->fill(settings.radio_map ? map_grid(*settings.radio_map, settings.lost_share)
+                                        : path_loss_grid(site, settings));
+    return in_use;
 }
 
 } // namespace locus

@@ -47,13 +47,13 @@ RadioParticles::RadioParticles(const Site& site, const RadioParticlesSettings& s
     : site_(&site), settings_(settings), doubt_limit_(-std::log(settings.gate_false_alarm)),
       feet_gate_in_sigma_(std::sqrt(2 * doubt_limit_)), // chi-square of two degrees of freedom
       noise_(reading_noise(settings)), grid_(make_radio_grid(site, settings)),
-      posterior_(grid_->cells().count(), of_scan(noise_)),
-      walk_(site, grid_->cells().corner_site_m, radio_walking(settings)) {
+      posterior_(grid().cells().count(), of_scan(noise_)),
+      walk_(site, grid().cells().corner_site_m, radio_walking(settings)) {
     const bool by_map = settings.radio_map != nullptr;
     const double offset_sigma_db = by_map ? 0 : settings.power_sigma_db;
     Beacon beacon;
     beacon.offset_variance_db2 = static_cast<float>(offset_sigma_db * offset_sigma_db);
-    state_.beacons.assign(grid_->beacons().size(), beacon);
+    state_.beacons.assign(grid().beacons().size(), beacon);
     readings_.reserve(state_.beacons.size());
 }
 
@@ -85,7 +85,7 @@ Exclusion RadioParticles::hear(const ImuSample& sample, Timestamp time) noexcept
 
 Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noexcept {
     const bool heard_at_anchor = site_->find_anchor(strength.receiver) != nullptr;
-    const std::size_t index = grid_->index_of(heard_at_anchor ? strength.receiver : strength.transmitter);
+    const std::size_t index = grid().index_of(heard_at_anchor ? strength.receiver : strength.transmitter);
     if (index == radio::StrengthGrid::none) return {Exclusion::unknown_beacon};
     if (strength.rssi_dbm < radio::weakest_dbm || strength.rssi_dbm > radio::strongest_dbm)
         return {Exclusion::out_of_reach};

@@ -10,8 +10,8 @@
 #include "fusion/estimators/used_kinds.h"
 #include "fusion/estimators/walking_cloud.h"
 #include "fusion/radio/floor_posterior.h"
+#include "fusion/radio/grid_in_use.h"
 #include "fusion/radio/reading_noise.h"
-#include "fusion/radio/strength_grid.h"
 
 #include <algorithm>
 #include <memory>
@@ -90,14 +90,16 @@ class RadioParticles final : public Estimator {
     void start_again_if_lost(Timestamp time) noexcept;
     void put_where_radios_say(Timestamp time) noexcept;
 
+    const radio::StrengthGrid& grid() const noexcept { return grid_->grid(); }
+
     const Site* site_;
     RadioParticlesSettings settings_;
     double doubt_limit_;
     double feet_gate_in_sigma_;
     radio::ReadingNoise noise_;
-    std::shared_ptr<const radio::StrengthGrid> grid_;
-    radio::FloorPosterior posterior_;             ///< room for start()
-    std::vector<radio::IndexedReading> readings_; ///< of a scan; room
+    std::shared_ptr<const radio::GridInUse> grid_; ///< the same for all clones
+    radio::FloorPosterior posterior_;              ///< room for start()
+    std::vector<radio::IndexedReading> readings_;  ///< of a scan; room
     WalkingCloud walk_;
     State state_;
 };

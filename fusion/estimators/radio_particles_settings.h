@@ -1,4 +1,5 @@
 // What can be set of the particle filter on signal strength. Where the defaults come from:
+// - a map is renewed every five minutes: working it out takes seconds of a core.
 // - power at 1 m -50 dBm: what BLE and 802.15.4 radios at 0 dBm make of the free-space loss of the first metre (40 dB
 //   at 2.4 GHz) and their antennas; 8 dB either way from device to device, until it is learnt. Exponent, shadowing:
 //   Rappaport, tables 3.2 and 4.2.
@@ -16,6 +17,7 @@
 #pragma once
 
 #include "fusion/option.h"
+#include "fusion/radio/grid_in_use.h"
 #include "fusion/radio/radio_map.h"
 
 #include <array>
@@ -26,6 +28,8 @@ namespace locus {
 
 struct RadioParticlesSettings {
     std::string map;
+    std::string calibrated_map;
+    double calibrate_every_s = 300;
     double power_1m_dbm = -50;
     double power_sigma_db = 8;
     double exponent = 2;
@@ -56,6 +60,11 @@ struct RadioParticlesSettings {
 
     /// What `map` names, read by config/radio_maps.h; null: the anchors and the path-loss model.
     std::shared_ptr<const radio::RadioMap> radio_map;
+    /// Where `calibrated_map` is named: what `map` names, and `radio_map` is what has become of it.
+    std::shared_ptr<const radio::RadioMap> surveyed_map;
+    std::string calibration_note; ///< why what was taught before is not in it; empty: it is, or there is none
+    /// What the estimators made of these settings read; null: each engine has its own.
+    std::shared_ptr<radio::GridInUse> grid;
 };
 
 inline constexpr std::array radio_particles_options{
@@ -63,6 +72,12 @@ inline constexpr std::array radio_particles_options{
         "map",
         "File of the radio map (docs/radio.md), beside this file if it is no whole path; left out: the path-loss "
         "model from the site's anchors."),
+    option<&RadioParticlesSettings::calibrated_map>(
+        "calibrated_map",
+        "File in which the map is kept as those teach it whom cameras see, beside this file if it is no whole path; "
+        "left out: the map stays as it was surveyed."),
+    option<&RadioParticlesSettings::calibrate_every_s>("calibrate_every_s", "s", 1, 1e6,
+                                                       "How often what was taught comes into use and is written down."),
     option<&RadioParticlesSettings::power_1m_dbm>(
         "power_1m_dbm", "dBm", -120, 30, "Without a map: strength at 1 m of a beacon that does not announce it."),
     option<&RadioParticlesSettings::power_sigma_db>("power_sigma_db", "dB", 0, 40,

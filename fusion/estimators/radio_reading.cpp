@@ -15,10 +15,10 @@ void RadioParticles::announce(Beacon& beacon, const SignalStrength& strength) co
 }
 
 RadioParticles::Outlook RadioParticles::foresee(std::size_t beacon) const noexcept {
-    const auto step = static_cast<float>(grid_->cells().cell_m);
+    const auto step = static_cast<float>(grid().cells().cell_m);
     const Eigen::Vector2f place = walk_.place_site_m().head<2>().cast<float>();
-    const radio::Expected here = grid_->at(beacon, place.x(), place.y());
-    const auto at = [&](float dx, float dy) { return grid_->at(beacon, place.x() + dx, place.y() + dy).mean_dbm; };
+    const radio::Expected here = grid().at(beacon, place.x(), place.y());
+    const auto at = [&](float dx, float dy) { return grid().at(beacon, place.x() + dx, place.y() + dy).mean_dbm; };
     Outlook outlook;
     outlook.mean_dbm = here.mean_dbm + state_.beacons[beacon].offset_db;
     outlook.gradient_dbpm =
@@ -45,7 +45,7 @@ void RadioParticles::weigh(std::size_t beacon, float rssi_dbm, float share) noex
     const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
     const float offset_db2 = state_.beacons[beacon].offset_variance_db2;
     walk_.particles().weigh_places([&](float x, float y) {
-        const radio::Expected expected = grid_->at(beacon, x + origin.x(), y + origin.y());
+        const radio::Expected expected = grid().at(beacon, x + origin.x(), y + origin.y());
         return share * radio::log_likelihood(rssi_dbm - expected.mean_dbm, expected.variance_db2 + offset_db2, noise_);
     });
     walk_.settle();

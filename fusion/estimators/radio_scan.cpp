@@ -48,8 +48,8 @@ void RadioParticles::start(Timestamp time) noexcept {
 }
 
 void RadioParticles::put_where_radios_say(Timestamp time) noexcept {
-    posterior_.solve(*grid_, readings_);
-    const radio::FloorCells& cells = grid_->cells();
+    posterior_.solve(grid(), readings_);
+    const radio::FloorCells& cells = grid().cells();
     walk_.particles().scatter(
         posterior_.weights(),
         [&](std::size_t index) { return Eigen::Vector2d(cells.place_site_m(index) - walk_.origin_site_m()); },
@@ -67,11 +67,11 @@ void RadioParticles::start_again_if_lost(Timestamp time) noexcept {
         state_.doubt = 0;
         return;
     }
-    const double anywhere = posterior_.solve(*grid_, readings_).log_mean_likelihood;
+    const double anywhere = posterior_.solve(grid(), readings_).log_mean_likelihood;
     const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
     constexpr double most = 50; // beyond it the sum would not change
     const double ratio = cloud().mean_of([&](float x, float y) {
-        const double log = radio::log_likelihood(*grid_, readings_, posterior_.noise(), x + origin.x(), y + origin.y());
+        const double log = radio::log_likelihood(grid(), readings_, posterior_.noise(), x + origin.x(), y + origin.y());
         return std::exp(std::min(most, log - anywhere));
     });
     state_.doubt = std::max(0.0, state_.doubt - double{scan_share()} * std::log(std::max(ratio, 1e-30)));
@@ -91,9 +91,9 @@ void RadioParticles::weigh_silence() noexcept {
     const float share = scan_share();
     const Eigen::Vector2f origin = walk_.origin_site_m().cast<float>();
     walk_.particles().weigh_places([&](float x, float y) {
-        float sum = grid_->silence_of_all(x + origin.x(), y + origin.y());
+        float sum = grid().silence_of_all(x + origin.x(), y + origin.y());
         for (const radio::IndexedReading& reading : readings_)
-            sum -= grid_->silence(reading.beacon, x + origin.x(), y + origin.y());
+            sum -= grid().silence(reading.beacon, x + origin.x(), y + origin.y());
         return share * sum;
     });
     walk_.settle();

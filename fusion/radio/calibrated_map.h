@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <deque>
 #include <span>
 
@@ -24,26 +25,33 @@ class CalibratedMap {
   public:
     CalibratedMap(RadioMap surveyed, const CalibrationSettings& settings)
         : surveyed_(std::move(surveyed)), now_(surveyed_), settings_(settings) {}
+    /// Goes on from what was taught before. Throws std::invalid_argument when `taught` is not made of this survey.
+    CalibratedMap(RadioMap surveyed, RadioMap taught, const CalibrationSettings& settings);
 
     const RadioMap& map() const { return now_; }
+    /// Mean of how far strengths have been moved, in dB.
+    double moved_db() const;
 
     /// `teacher` was seen at `position_site_m` and heard this. Only beacons that a point heard in the survey are
     /// taught.
-    void learn(Address teacher, const Eigen::Vector2d& position_site_m, std::span<const Reading> heard);
+    void learn(std::uint64_t teacher, const Eigen::Vector2d& position_site_m, std::span<const Reading> heard);
     /// Undoes what is remembered of this one's lessons.
-    void take_back(Address teacher);
+    void take_back(std::uint64_t teacher);
 
   private:
     struct Lesson {
-        Address teacher;
+        std::uint64_t teacher;
         std::size_t point, strength; ///< indices
         double moved_db;
     };
-    void move(std::size_t point, std::size_t strength, double wanted_db, Address teacher);
+    void move(std::size_t point, std::size_t strength, double wanted_db, std::uint64_t teacher);
 
     RadioMap surveyed_, now_;
     CalibrationSettings settings_;
     std::deque<Lesson> lessons_;
 };
+
+/// Whether both have the same points and, at each, the same beacons.
+bool is_of_survey(const RadioMap& surveyed, const RadioMap& taught);
 
 } // namespace locus::radio

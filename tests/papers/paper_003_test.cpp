@@ -218,7 +218,7 @@ TEST(Paper003, TheMapForgetsWhatAWrongNameTaught) {
     const RadioMap surveyed = world.radios.survey(20, 12, 2);
     CalibratedMap map(surveyed, {});
     std::vector<Reading> wrong = world.radios.hear({2, 2});
-    for (int i = 0; i < 200; ++i) map.learn(address(7), {16, 10}, wrong);
+    for (int i = 0; i < 200; ++i) map.learn(7, {16, 10}, wrong);
     double most_db = 0;
     const auto farthest_db = [&] {
         double most = 0;
@@ -231,7 +231,7 @@ TEST(Paper003, TheMapForgetsWhatAWrongNameTaught) {
     most_db = farthest_db();
     EXPECT_GT(most_db, 5);
     EXPECT_LE(most_db, CalibrationSettings{}.most_db + 1e-9);
-    map.take_back(address(7));
+    map.take_back(7);
     EXPECT_LT(farthest_db(), 1e-6);
 }
 

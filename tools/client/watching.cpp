@@ -10,6 +10,7 @@ std::string watch_command(const WatchRequest& request) {
     nlohmann::json options{{"enable", true}};
     if (!request.targets.empty()) options["targets"] = request.targets;
     if (request.rate_hz) options["rate_hz"] = *request.rate_hz;
+    if (request.readings) options["readings"] = true;
     std::string text = options.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     // The first ';' ends the command, and in JSON it can only stand in a name.
     for (std::size_t at = 0; (at = text.find(';', at)) != std::string::npos;) text.replace(at, 1, "\\u003b");

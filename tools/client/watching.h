@@ -12,6 +12,7 @@ namespace locus::tools {
 struct WatchRequest {
     std::vector<std::string> targets; ///< empty: all
     std::optional<double> rate_hz;    ///< at most so many poses of each target a second; empty: all
+    bool readings = false;            ///< also what radios heard
 };
 
 /// The ?WATCH command. Names may hold any character.

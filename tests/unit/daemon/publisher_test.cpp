@@ -71,6 +71,21 @@ TEST_F(PublisherTest, GreetsAndStreamsToWhoeverWatches) {
     EXPECT_EQ(client.next("POLL")["poses"], 1);
 }
 
+TEST_F(PublisherTest, GivesWhatRadiosHeardToWhoAsksForIt) {
+    SocketClient surveyor{path_}, watcher{path_};
+    watcher.ask("?WATCH={};", "WATCH");
+    EXPECT_EQ(surveyor.ask(R"(?WATCH={"readings":true,"poses":false,"targets":["0x1"]};)", "WATCH")["readings"], true);
+    output_.readings.push({timestamp_from_s(2), address(2), address(0x90), -70});
+    output_.readings.push({timestamp_from_s(2.5), address(1), address(0x91), -61.5F});
+    tick(1);
+    const auto reading = surveyor.next("READING");
+    EXPECT_EQ(reading["target"], "0x1");
+    EXPECT_EQ(reading["beacon"], "0x91");
+    EXPECT_EQ(reading["rssi_dbm"], -61.5);
+    EXPECT_EQ(reading["time"], 2.5);
+    EXPECT_NE(watcher.line().value_or("").find("POSE"), std::string::npos) << "and to nobody else";
+}
+
 TEST_F(PublisherTest, TheSocketIsForTheGroupAndGoesWithThePublisher) {
     struct stat status{};
     ASSERT_EQ(::stat(path_.c_str(), &status), 0);

@@ -18,6 +18,11 @@ struct RadioHall {
           walker({}, seed), unit(worn_unit) {
         walker.place({5, 6}, 0.3);
     }
+    /// By a map that need not be of these radios.
+    RadioHall(const radio::RadioMap& map, unsigned seed, SimulatedRadios own)
+        : radios(std::move(own)), settings(by(map)), filter(site(), settings), walker({}, seed), unit(false) {
+        walker.place({5, 6}, 0.3);
+    }
 
     const Site& site() {
         if (site_.anchors.empty())
@@ -25,9 +30,10 @@ struct RadioHall {
                 site_.anchors.push_back({"", address(100 + site_.anchors.size()), {beacon.x(), beacon.y(), 2.7}});
         return site_;
     }
-    RadioParticlesSettings mapped() {
+    RadioParticlesSettings mapped() { return by(radios.survey(20, 12, 2)); }
+    static RadioParticlesSettings by(const radio::RadioMap& map) {
         RadioParticlesSettings by_map;
-        by_map.radio_map = std::make_shared<const radio::RadioMap>(radios.survey(20, 12, 2));
+        by_map.radio_map = std::make_shared<const radio::RadioMap>(map);
         return by_map;
     }
 

@@ -36,7 +36,7 @@ class SimulatedRadios {
         double dbm = loss.expected_dbm(std::hypot((place_m - beacons_m_[beacon]).norm(), 1.5));
         for (const Wave& wave : waves_)
             if (wave.beacon == beacon) dbm += wave.db * std::cos(wave.per_m.dot(place_m) + wave.phase);
-        return dbm;
+        return beacon < weaker_db.size() ? dbm - weaker_db[beacon] : dbm;
     }
 
     /// Who is heard, once.
@@ -64,6 +64,7 @@ class SimulatedRadios {
     const std::vector<Eigen::Vector2d>& beacons_m() const { return beacons_m_; }
 
     radio::PathLoss loss{-45, 2.2, 4};
+    std::vector<double> weaker_db; ///< of each beacon; left out: none
 
   private:
     struct Wave {
