@@ -86,7 +86,7 @@ class PaperSystem {
         for (const auto& [person, seen_m] : named) {
             clouds_[person].weigh_seen(fixes[person], seen_m);
             known[person] = clouds_[person].position_site_m();
-            if (situation_.learns) map_.learn(address(person), known[person], heard[person]);
+            if (situation_.learns) map_.learn(person, known[person], heard[person]);
         }
         for (std::size_t i = 0; i < situation_.people; ++i)
             if (!named.contains(i)) clouds_[i].weigh_unseen(fix(map_.map(), heard[i]), peers(i, known));

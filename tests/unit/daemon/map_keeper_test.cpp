@@ -4,6 +4,7 @@
 #include "config/radio_map_versions.h"
 #include "daemon/radio/map_keeper.h"
 #include "fusion/estimators/radio_particles.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +28,7 @@ radio::RadioMap corridor_map() {
 /// A daemon's fusion loop without a thread, its settings, and a folder.
 class MapKeepers : public testing::Test {
   protected:
-    MapKeepers() {
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-        read();
-    }
-    ~MapKeepers() override { fs::remove_all(folder_); }
+    MapKeepers() { read(); }
 
     /// The settings as a start of the daemon reads them.
     void read() {
@@ -66,8 +62,8 @@ class MapKeepers : public testing::Test {
     }
     double in_use_dbm() const { return static_cast<double>(radio().grid->grid().at(0, 0, 1).mean_dbm); }
 
-    fs::path folder_ = fs::path(testing::TempDir()) / "locus_map_keeper";
-    std::string path_ = (folder_ / "live.yaml").string();
+    test::TemporaryFolder folder_;
+    std::string path_ = folder_ / "live.yaml";
     EngineSettings settings_;
     std::unique_ptr<FusionOutput> output_ = std::make_unique<FusionOutput>();
     Wake ticked_;
@@ -147,7 +143,7 @@ TEST_F(MapKeepers, StartWithTheSurveyWhereTheFileIsNoMapOfIt) {
 }
 
 TEST_F(MapKeepers, BringItIntoUseThoughTheDiskTakesNothing) {
-    fs::remove_all(folder_);
+    fs::remove_all(folder_.path());
     const auto mine = keeper();
     const double before_dbm = in_use_dbm();
     teach(1);

@@ -47,7 +47,7 @@ TEST(MapTeachers, TeachOnceTheirNameHasBeenSureForAWhile) {
     Teachers teachers(2);
     EXPECT_EQ(two_walk(teachers, 0, 4.9, 1), 0U);
     EXPECT_GE(two_walk(teachers, 5, 6, 1), 18U);
-    EXPECT_EQ(two_walk(teachers, 6, 7, 0.5), 10U) << "feet of half a second before still say where they are";
+    EXPECT_EQ(two_walk(teachers, 6, 7, 0.5), 0U) << "in doubt";
     EXPECT_EQ(two_walk(teachers, 7, 11.9, 1), 0U) << "sure anew";
 }
 
