@@ -95,6 +95,7 @@ struct Engine::Impl final : uwb::ClockSynchroniser::Output, gnss::Receivers::Out
     Exclusion first_look(const Measurement& measurement, Timestamp arrival) const noexcept;
     Verdict hand_over(const Measurement& measurement, const Delivery& delivery, const AidBook::Record& record,
                       Timestamp arrival) noexcept;
+    bool is_named_by_camera(TargetTable::Slot slot) const noexcept;
     Measurement with_peer(const Measurement& measurement, const Delivery& delivery) const noexcept;
     Exclusion hand_to_target(const Measurement& measurement, const Delivery& delivery,
                              const AidBook::Record& record) noexcept;
@@ -166,15 +167,16 @@ Exclusion Engine::Impl::hand_to_target(const Measurement& measurement, const Del
     if (!delivery.tag) return Exclusion::unsupported_kind;
     const auto slot = targets.slot_of(*delivery.tag);
     if (slot == TargetTable::none) return Exclusion::unknown_target;
-    const bool is_peer = std::holds_alternative<PeerRange>(measurement.observation);
-    const Measurement& told = is_peer ? with_peer(measurement, delivery) : measurement;
+    const bool has_peer = std::holds_alternative<PeerRange>(measurement.observation) ||
+                          std::holds_alternative<SignalStrength>(measurement.observation);
+    const Measurement& told = has_peer ? with_peer(measurement, delivery) : measurement;
     const SampleKey key = key_of(measurement, delivery);
     const Exclusion reason = targets.timeline(slot).insert(told, key, record);
     if (reason != Exclusion::none) return reason;
-    witnesses.hear(slot, told, key);
+    const auto* strength = std::get_if<SignalStrength>(&measurement.observation);
+    witnesses.hear(slot, strength != nullptr ? measurement : told, key); // no name proves another's
     anchors.hear(slot, measurement);
-    if (const auto* strength = std::get_if<SignalStrength>(&measurement.observation))
-        teachers.hear(slot, {delivery.sources[0], strength->rssi_dbm}, measurement.time);
+    if (strength != nullptr) teachers.hear(slot, {delivery.sources[0], strength->rssi_dbm}, measurement.time);
     return reason;
 }
 
@@ -198,14 +200,21 @@ void Engine::Impl::give(const Measurement& foot, const AidBook::Record& record,
 Measurement Engine::Impl::with_peer(const Measurement& measurement, const Delivery& delivery) const noexcept {
     Measurement told = measurement;
     auto* range = std::get_if<PeerRange>(&told.observation);
-    if (range == nullptr) return told;
-    range->other = {};
+    auto* strength = std::get_if<SignalStrength>(&told.observation);
+    PeerBelief& other_knows = range != nullptr ? range->other : strength->other;
+    other_knows = {};
     const auto slot = targets.find(delivery.sources[0]);
-    if (slot == TargetTable::none) return told;
+    if (slot == TargetTable::none || (strength != nullptr && !is_named_by_camera(slot))) return told;
     Estimate other = targets.timeline(slot).predict(std::max(measurement.time, last_tick));
     keep_finite(other);
-    if (other.missing == Missing::nothing) range->other = belief(other);
+    if (other.missing == Missing::nothing) other_knows = belief(other);
     return told;
+}
+
+/// A strength between two tags says little, so only of whom a camera has just seen under a name: he is known by other
+/// means than by whom he hears, and nothing goes round in a circle.
+bool Engine::Impl::is_named_by_camera(TargetTable::Slot slot) const noexcept {
+    return now - seen[slot].told <= seen_for && seen[slot].as.confidence > 0;
 }
 
 void Engine::Impl::take(const Measurement& made, const AidBook::Record& record) noexcept {

@@ -215,6 +215,7 @@ struct SignalStrength {
     float rssi_dbm = 0;
     float tx_power_dbm = unknown_f; ///< power at 1 m that the beacon announces
     std::uint8_t channel = 0;
+    PeerBelief other{}; ///< of a transmitter that is a tag itself, whom a camera sees; the engine fills it in
 };
 
 using Observation =

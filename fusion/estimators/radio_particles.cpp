@@ -46,8 +46,9 @@ radio::ReadingNoise of_scan(radio::ReadingNoise noise) {
 RadioParticles::RadioParticles(const Site& site, const RadioParticlesSettings& settings)
     : site_(&site), settings_(settings), doubt_limit_(-std::log(settings.gate_false_alarm)),
       feet_gate_in_sigma_(std::sqrt(2 * doubt_limit_)), // chi-square of two degrees of freedom
-      noise_(reading_noise(settings)), grid_(make_radio_grid(site, settings)),
-      posterior_(grid().cells().count(), of_scan(noise_)),
+      noise_(reading_noise(settings)),
+      peer_loss_{settings.peer_power_1m_dbm, settings.exponent, settings.peer_sigma_db},
+      grid_(make_radio_grid(site, settings)), posterior_(grid().cells().count(), of_scan(noise_)),
       walk_(site, grid().cells().corner_site_m, radio_walking(settings)) {
     const bool by_map = settings.radio_map != nullptr;
     const double offset_sigma_db = by_map ? 0 : settings.power_sigma_db;
@@ -86,9 +87,10 @@ Exclusion RadioParticles::hear(const ImuSample& sample, Timestamp time) noexcept
 Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noexcept {
     const bool heard_at_anchor = site_->find_anchor(strength.receiver) != nullptr;
     const std::size_t index = grid().index_of(heard_at_anchor ? strength.receiver : strength.transmitter);
-    if (index == radio::StrengthGrid::none) return {Exclusion::unknown_beacon};
     if (strength.rssi_dbm < radio::weakest_dbm || strength.rssi_dbm > radio::strongest_dbm)
         return {Exclusion::out_of_reach};
+    if (index == radio::StrengthGrid::none)
+        return strength.other.known() ? hear_peer(strength, time) : Verdict{Exclusion::unknown_beacon};
     if (!state_.scan_begin.has_value()) state_.scan_begin = time;
     if (to_s(time - *state_.scan_begin) >= settings_.scan_s) end_scan(time);
 

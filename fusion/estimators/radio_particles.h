@@ -11,9 +11,11 @@
 #include "fusion/estimators/walking_cloud.h"
 #include "fusion/radio/floor_posterior.h"
 #include "fusion/radio/grid_in_use.h"
+#include "fusion/radio/path_loss.h"
 #include "fusion/radio/reading_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,6 +47,13 @@ class RadioParticles final : public Estimator {
         float mean_dbm() const noexcept { return sum_dbm / static_cast<float>(count); }
     };
 
+    /// Another's tag that is heard.
+    struct Peer {
+        Address tag = no_address;
+        std::optional<Timestamp> heard;
+    };
+    static constexpr std::size_t max_peers = 16; ///< whose times are remembered; whoever was heard longest ago goes
+
     /// Feet in a row that were too far off.
     struct Refused {
         Timestamp first, last;
@@ -52,6 +61,7 @@ class RadioParticles final : public Estimator {
 
     struct State {
         std::vector<Beacon> beacons;
+        std::array<Peer, max_peers> peers;
         UsedKinds used;
         std::optional<Timestamp> scan_begin;
         int odd = 0, heard = 0; ///< readings of this scan that hardly fit, and all
@@ -70,6 +80,8 @@ class RadioParticles final : public Estimator {
 
     Exclusion hear(const ImuSample& sample, Timestamp time) noexcept;
     Verdict hear(const SignalStrength& strength, Timestamp time) noexcept;
+    Verdict hear_peer(const SignalStrength& strength, Timestamp time) noexcept;
+    float new_share_of_peer(Address tag, Timestamp time) noexcept;
     Verdict see(const FootPoint& foot, Timestamp time) noexcept;
     Verdict judge_feet(const FootPoint& foot, const Eigen::Matrix2d& covariance_m2) const noexcept;
     bool is_seen(Timestamp time) const noexcept;
@@ -97,6 +109,7 @@ class RadioParticles final : public Estimator {
     double doubt_limit_;
     double feet_gate_in_sigma_;
     radio::ReadingNoise noise_;
+    radio::PathLoss peer_loss_;                    ///< between two tags
     std::shared_ptr<const radio::GridInUse> grid_; ///< the same for all clones
     radio::FloorPosterior posterior_;              ///< room for start()
     std::vector<radio::IndexedReading> readings_;  ///< of a scan; room

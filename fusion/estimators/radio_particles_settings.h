@@ -3,6 +3,7 @@
 // - power at 1 m -50 dBm: what BLE and 802.15.4 radios at 0 dBm make of the free-space loss of the first metre (40 dB
 //   at 2.4 GHz) and their antennas; 8 dB either way from device to device, until it is learnt. Exponent, shadowing:
 //   Rappaport, tables 3.2 and 4.2.
+// - tags hear each other as they hear beacons, 8 dB from tag to tag.
 // - a scan each second: beacons send ten times to once a second.
 // - held error 2 s: fading is another after a fraction of a wavelength, but a body shadows until it turns or has gone
 //   on by a length or two of itself.
@@ -40,6 +41,8 @@ struct RadioParticlesSettings {
     double body_share = 0;
     double body_loss_db = 8;
     double outlier_share = 0.05;
+    double peer_power_1m_dbm = -50;
+    double peer_sigma_db = 8;
     double held_error_time_s = 2;
     double foot_error_sigma_m = 0.2;
     double foot_error_time_s = 1;
@@ -97,6 +100,10 @@ inline constexpr std::array radio_particles_options{
         "body_share", "", 0, 0.9,
         "Chance that a body stands between radio and beacon which was not there in the survey."),
     option<&RadioParticlesSettings::body_loss_db>("body_loss_db", "dB", 0.5, 40, "What it takes, in the mean."),
+    option<&RadioParticlesSettings::peer_power_1m_dbm>("peer_power_1m_dbm", "dBm", -120, 30,
+                                                       "Strength at 1 m that one person's tag hears another's with."),
+    option<&RadioParticlesSettings::peer_sigma_db>(
+        "peer_sigma_db", "dB", 0.5, 40, "Deviation of that from the path-loss model: tags differ, bodies are near."),
     option<&RadioParticlesSettings::outlier_share>("outlier_share", "", 0.001, 0.9,
                                                    "Chance of a reading that fits neither map nor model."),
     option<&RadioParticlesSettings::held_error_time_s>(
