@@ -155,10 +155,11 @@ void BaseStations::sight(const Base& base, const GpsTime& time, const EphemerisB
     observer_.observe(sights_, {time, ephemerides.ionosphere()}, vector(base.antenna_ecef_m));
 }
 
-/// False: the pseudoranges contradict each other at this place, and which of them is wrong does not show.
+/// False: the pseudoranges contradict each other at this place, and which of them is wrong does not show; or most are.
 bool BaseStations::solve_clocks(const Base& base) noexcept {
     const Eigen::Vector3d antenna_ecef_m = vector(base.antenna_ecef_m);
-    for (std::size_t left_out = 0; left_out <= sights_.size(); ++left_out) {
+    const auto heard = std::ranges::count(sights_, Exclusion::none, &SightFrom::reason);
+    for (std::ptrdiff_t left_out = 0; 2 * left_out <= heard; ++left_out) {
         ClockEquations equations;
         clock_rows_.fill(0);
         for (const SightFrom& s : sights_) {
