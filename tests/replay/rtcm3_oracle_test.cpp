@@ -6,6 +6,7 @@
 #include "tests/replay/data.h"
 #include "tests/replay/navigation_records.h"
 #include "tests/replay/receiver_run.h"
+#include "tests/replay/rinex_oracle.h"
 #include "tests/replay/rnx2rtkp.h"
 #include "tests/support/rtcm3_encoder.h"
 #include "tests/unit/drivers/collector.h"
@@ -21,14 +22,12 @@ namespace {
 
 namespace encoder = test::rtcm3;
 
-bool convbin_installed() { return std::system("command -v convbin >/dev/null 2>&1") == 0; }
-
-void append(encoder::Bytes& stream, const encoder::Bytes& frame) {
+void append_frame(encoder::Bytes& stream, const encoder::Bytes& frame) {
     stream.insert(stream.end(), frame.begin(), frame.end());
 }
 
 /// What convbin makes of a stream, in `path` as RINEX 3.
-void convert(const encoder::Bytes& stream, const std::string& day, const std::string& path) {
+void convert_rtcm3(const encoder::Bytes& stream, const std::string& day, const std::string& path) {
     std::ofstream(path + ".rtcm3", std::ios::binary)
         .write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
     const std::string command = "convbin -r rtcm3 -tr " + day + " 00:00:00 -od -os -v 3.03 -o '" + path + "' '" + path +
@@ -36,7 +35,7 @@ void convert(const encoder::Bytes& stream, const std::string& day, const std::st
     ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
-std::vector<GnssRaw> read_rinex(const std::string& path) {
+std::vector<GnssRaw> read_converted(const std::string& path) {
     rinex::Observations observations{address(1)};
     test::Collector sink;
     std::ifstream file(path);
@@ -53,7 +52,7 @@ std::vector<GnssBaseRange> decode_base(const encoder::Bytes& stream) {
 }
 
 TEST(Rtcm3Oracle, ConvbinReadsTheSame) {
-    if (!convbin_installed()) GTEST_SKIP() << "no convbin (rtklib)";
+    if (!test::convbin_installed()) GTEST_SKIP() << "no convbin (rtklib)";
     std::mt19937 random{5};
     const auto below = [&](unsigned end) { return static_cast<unsigned>(random() % end); };
     const auto cells = [&](unsigned last) {
@@ -66,17 +65,18 @@ TEST(Rtcm3Oracle, ConvbinReadsTheSame) {
     for (const unsigned kind : {4u, 5u, 6u, 7u})
         for (std::uint64_t i = 0; i < 3; ++i) { // the 28th of August 2025 is a Thursday
             const std::uint64_t ms = 345'600'000 + 10'000 * kind + 1000 * i;
-            append(stream, encoder::msm(1070 + kind, 7, ms, cells(32)));
-            append(stream, encoder::msm(1080 + kind, 7,
-                                        encoder::glonass_time(4, ms - 345'600'000 + 10'800'000 - 18'000), cells(24)));
-            append(stream, encoder::msm(1090 + kind, 7, ms, cells(36)));
-            append(stream, encoder::msm(1110 + kind, 7, ms, cells(7)));
-            append(stream, encoder::msm(1120 + kind, 7, ms - 14'000, cells(37)));
+            append_frame(stream, encoder::msm(1070 + kind, 7, ms, cells(32)));
+            append_frame(stream,
+                         encoder::msm(1080 + kind, 7, encoder::glonass_time(4, ms - 345'600'000 + 10'800'000 - 18'000),
+                                      cells(24)));
+            append_frame(stream, encoder::msm(1090 + kind, 7, ms, cells(36)));
+            append_frame(stream, encoder::msm(1110 + kind, 7, ms, cells(7)));
+            append_frame(stream, encoder::msm(1120 + kind, 7, ms - 14'000, cells(37)));
         }
-    append(stream, encoder::gps_l1(7, 345'690'000, cells(32)));
+    append_frame(stream, encoder::gps_l1(7, 345'690'000, cells(32)));
     const test::TemporaryFolder folder;
-    convert(stream, "2025/08/28", folder / "out.obs");
-    auto theirs = read_rinex(folder / "out.obs");
+    convert_rtcm3(stream, "2025/08/28", folder / "out.obs");
+    auto theirs = read_converted(folder / "out.obs");
     const auto ours = decode_base(stream);
     ASSERT_GT(ours.size(), 400u);
     EXPECT_EQ(ours.size(), theirs.size());
@@ -159,7 +159,7 @@ Heard observe(const Sky2019& sky, const synthetic::Truth& truth, double after_s,
 
 TEST(Rtcm3Oracle, CorrectedPositionsAreAsGoodAsRtklibsDifferentialGps) {
     const auto navigation = test::recorded("graphgnss_hk_tst/gps_solution_TST/hksc1180.19n");
-    if (!navigation || !convbin_installed() || !test::rnx2rtkp_installed())
+    if (!navigation || !test::convbin_installed() || !test::rnx2rtkp_installed())
         GTEST_SKIP() << "no graphgnss_hk_tst in LOCUS_DATA or ../shared/data, or no rtklib";
     const Sky2019 sky = sky_of(test::read_navigation_records(*navigation));
     ASSERT_GE(sky.records.size(), 8u);
@@ -171,8 +171,8 @@ TEST(Rtcm3Oracle, CorrectedPositionsAreAsGoodAsRtklibsDifferentialGps) {
     constexpr int epochs = 60;
     for (int i = 0; i < epochs; ++i) {
         const Heard at_base = observe(sky, base, 10 * i, random), at_rover = observe(sky, rover, 10 * i, random);
-        append(base_stream, at_base.message);
-        append(rover_stream, at_rover.message);
+        append_frame(base_stream, at_base.message);
+        append_frame(rover_stream, at_rover.message);
         const Timestamp now = timestamp_from_s(1000 + 10 * i);
         for (auto range : decode_base(at_base.message)) {
             for (int axis = 0; axis < 3; ++axis)
@@ -188,8 +188,8 @@ TEST(Rtcm3Oracle, CorrectedPositionsAreAsGoodAsRtklibsDifferentialGps) {
     corrected.finish();
     alone.finish();
     const test::TemporaryFolder folder;
-    convert(base_stream, "2019/04/28", folder / "base.obs");
-    convert(rover_stream, "2019/04/28", folder / "rover.obs");
+    convert_rtcm3(base_stream, "2019/04/28", folder / "base.obs");
+    convert_rtcm3(rover_stream, "2019/04/28", folder / "rover.obs");
     const auto theirs =
         rtklib_differential(folder / "rover.obs", folder / "base.obs", navigation->string(), base.position_ecef_m);
     ASSERT_GE(theirs.size(), 55u);
