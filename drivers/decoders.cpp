@@ -1,6 +1,7 @@
 // The device families that a configuration can name.
 #include "drivers/decoder.h"
 #include "drivers/gnss/nmea.h"
+#include "drivers/gnss/rtcm3.h"
 #include "drivers/gnss/ubx.h"
 #include "drivers/imu/epson_g370.h"
 #include "drivers/imu/vectornav.h"
@@ -108,6 +109,8 @@ constexpr std::array decoder_rows{
                option_table<gnss::UbxSettings>(gnss::ubx_options), gnss::make_ubx},
     DecoderRow{"nmea", "GNSS receivers that talk NMEA 0183: one fix from GGA, RMC or VTG, and GST", Wire::bytes,
                option_table<gnss::NmeaSettings>(gnss::nmea_options), gnss::make_nmea},
+    DecoderRow{"rtcm3", "GNSS base stations in RTCM 3: pseudoranges and their place, for differential corrections",
+               Wire::bytes, option_table<gnss::Rtcm3Settings>({}), gnss::make_rtcm3},
 };
 }
 

@@ -51,6 +51,8 @@ enum class Exclusion : std::uint8_t {
     unknown_camera,
     nobody_known,
     unknown_beacon,
+    base_without_place,
+    nothing_to_correct,
     count_
 };
 
@@ -101,6 +103,8 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"unknown_camera", "it is none of the cameras in the settings"},
     {"nobody_known", "nobody's tag is where these feet are, or it is not sure yet whose"},
     {"unknown_beacon", "it is neither in the radio map nor, where there is none, among the anchors of the site"},
+    {"base_without_place", "the base station has not told yet where it stands (RTCM 1005 or 1006)"},
+    {"nothing_to_correct", "no receiver's raw observations have come since that it could correct"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {
@@ -132,7 +136,7 @@ inline Verdict kept_out(Verdict verdict, Exclusion reason = Exclusion::innovatio
     return verdict;
 }
 
-enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag };
+enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag, base };
 
 /// received = used + refused + late + those still waiting for their tick.
 struct AidCounters {

@@ -62,7 +62,8 @@ void fill(Pose& pose, const Estimate& estimate) {
 
 /// What has had its effect as soon as it came; it waits for no tick.
 bool is_done_with(const Observation& observation) {
-    return std::holds_alternative<ClockSync>(observation) || std::holds_alternative<GnssNavigation>(observation);
+    return std::holds_alternative<ClockSync>(observation) || std::holds_alternative<GnssNavigation>(observation) ||
+           std::holds_alternative<GnssBaseRange>(observation);
 }
 
 } // namespace
@@ -158,6 +159,8 @@ Verdict Engine::Impl::hand_over(const Measurement& measurement, const Delivery& 
         return {feet.hear(measurement, record, arrival, *this)};
     if (const auto* words = std::get_if<GnssNavigation>(&measurement.observation))
         return receivers.hear(*words), Verdict{};
+    if (const auto* base = std::get_if<GnssBaseRange>(&measurement.observation))
+        return {receivers.hear(*base, measurement.input)};
     if (const auto* fix = std::get_if<GnssFix>(&measurement.observation)) receivers.hear(*fix, measurement.time);
     return {hand_to_target(measurement, delivery, record)};
 }

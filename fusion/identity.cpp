@@ -55,6 +55,7 @@ struct WhomItConcerns {
         return one(o.tag, SourceKind::satellite, satellite_address(o));
     }
     Deliveries operator()(const Height& o) const { return one(o.tag, SourceKind::input, this_input()); }
+    Deliveries operator()(const GnssBaseRange& o) const { return one({}, SourceKind::base, o.base); }
     Deliveries operator()(const SatelliteRange& o) const {
         return one(o.tag, SourceKind::satellite, satellite_address(o));
     }
@@ -84,6 +85,9 @@ struct NumbersAreFinite {
     bool operator()(const GnssRaw& o) const {
         return all_finite(std::array{o.receiver_time_s_in_gps_week, o.pseudorange_m, o.carrier_cycles, o.doppler_hz});
     }
+    bool operator()(const GnssBaseRange& o) const {
+        return std::isfinite(o.time_s_in_gps_week) && std::isfinite(o.pseudorange_m);
+    }
     bool operator()(const WheelSpeed& o) const { return std::isfinite(o.speed_mps); }
     bool operator()(const Pressure& o) const { return std::isfinite(o.pressure_pa); }
     bool operator()(const SignalStrength& o) const { return std::isfinite(o.rssi_dbm); }
@@ -101,6 +105,7 @@ struct ShownValue {
     double operator()(const PeerRange& o) const { return o.range_m; }
     double operator()(const GnssRaw& o) const { return o.pseudorange_m; }
     double operator()(const SatelliteRange& o) const { return o.pseudorange_m; }
+    double operator()(const GnssBaseRange& o) const { return o.pseudorange_m; }
     double operator()(const WheelSpeed& o) const { return o.speed_mps; }
     double operator()(const Pressure& o) const { return o.pressure_pa; }
     double operator()(const Height& o) const { return o.height_site_m; }

@@ -21,6 +21,8 @@ using Vec3f = std::array<float, 3>;
 
 inline constexpr float unknown_f = std::numeric_limits<float>::quiet_NaN();
 inline constexpr Vec3f unknown_vec3f{unknown_f, unknown_f, unknown_f};
+inline constexpr double unknown_d = std::numeric_limits<double>::quiet_NaN();
+inline constexpr Vec3 unknown_vec3{unknown_d, unknown_d, unknown_d};
 
 /// The number a device calls itself by: a TREK index, a 16-bit short address or an EUI-64.
 enum class Address : std::uint64_t {};
@@ -188,6 +190,21 @@ struct GnssNavigation {
     std::array<std::uint32_t, max_words> words{};
 };
 
+/// A pseudorange at L1 of a base station: a receiver that stands still and tells where. Of what both hear alike a
+/// receiver nearby is freed by it (fusion/gnss/base_stations.h). Reception in GPS time; the week the base does not
+/// tell.
+struct GnssBaseRange {
+    Address base = no_address; ///< number of the station
+    double time_s_in_gps_week = 0;
+    double pseudorange_m = 0;
+    Vec3 antenna_ecef_m = unknown_vec3; ///< NaN: it has not told yet
+    float carrier_to_noise_dbhz = unknown_f;
+    std::uint8_t constellation = 0;
+    std::uint8_t satellite = 0;
+    std::uint8_t signal = 0;       ///< sigId of u-blox
+    std::uint8_t glonass_slot = 7; ///< frequency number + 7
+};
+
 struct WheelSpeed {
     Address tag = no_address;
     double speed_mps = 0;
@@ -220,13 +237,13 @@ struct SignalStrength {
 
 using Observation =
     std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
-                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange>;
+                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange, GnssBaseRange>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
-    "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",     "PEER_RANGE",  "IMU",
-    "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",       "WHEEL_SPEED", "PRESSURE",
-    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE"};
+    "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",      "PEER_RANGE",     "IMU",
+    "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",        "WHEEL_SPEED",    "PRESSURE",
+    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE", "GNSS_BASE_RANGE"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

@@ -137,6 +137,19 @@ void visit_fields(Visitor& visit, Kind& range) {
     visit.must("signal", range.signal);
 }
 
+template <class Visitor, Of<GnssBaseRange> Kind>
+void visit_fields(Visitor& visit, Kind& range) {
+    visit.must("base", range.base);
+    visit.must("time_s_in_gps_week", range.time_s_in_gps_week);
+    visit.must("pseudorange_m", range.pseudorange_m);
+    visit.may("antenna_ecef_m", range.antenna_ecef_m);
+    visit.may("carrier_to_noise_dbhz", range.carrier_to_noise_dbhz);
+    visit.must("constellation", range.constellation);
+    visit.must("satellite", range.satellite);
+    visit.must("signal", range.signal);
+    visit.must("glonass_slot", range.glonass_slot);
+}
+
 template <class Visitor, Of<WheelSpeed> Kind>
 void visit_fields(Visitor& visit, Kind& wheel) {
     visit.must("tag", wheel.tag);

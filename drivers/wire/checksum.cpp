@@ -6,11 +6,11 @@
 
 namespace locus::wire {
 namespace {
-template <class Crc>
-std::uint16_t crc(Bytes bytes) {
+template <class Crc, class Sum = std::uint16_t>
+Sum crc(Bytes bytes) {
     Crc crc;
     crc.process_bytes(bytes.data(), bytes.size());
-    return static_cast<std::uint16_t>(crc.checksum());
+    return static_cast<Sum>(crc.checksum());
 }
 } // namespace
 
@@ -41,5 +41,8 @@ std::uint16_t fletcher8(Bytes bytes) {
 std::uint16_t crc16_xmodem(Bytes bytes) { return crc<boost::crc_optimal<16, 0x1021, 0, 0, false, false>>(bytes); }
 std::uint16_t crc16_kermit(Bytes bytes) { return crc<boost::crc_optimal<16, 0x1021, 0, 0, true, true>>(bytes); }
 std::uint16_t crc16_modbus(Bytes bytes) { return crc<boost::crc_optimal<16, 0x8005, 0xFFFF, 0, true, true>>(bytes); }
+std::uint32_t crc24q(Bytes bytes) {
+    return crc<boost::crc_optimal<24, 0x864CFB, 0, 0, false, false>, std::uint32_t>(bytes);
+}
 
 } // namespace locus::wire

@@ -23,5 +23,7 @@ std::uint16_t crc16_xmodem(Bytes bytes);
 std::uint16_t crc16_kermit(Bytes bytes);
 /// CRC-16 with polynomial 0x8005 reflected, from 0xFFFF (Modbus).
 std::uint16_t crc16_modbus(Bytes bytes);
+/// CRC-24 with polynomial 0x864CFB from 0 (Qualcomm's CRC-24Q: RTCM 3).
+std::uint32_t crc24q(Bytes bytes);
 
 } // namespace locus::wire

@@ -35,31 +35,11 @@ bool is_healthy(const GlonassEphemeris& e) { return e.health == 0; }
 
 } // namespace
 
-std::size_t EphemerisBook::place_of(std::uint8_t constellation, std::uint8_t satellite) noexcept {
-    const auto place = [&](std::size_t begin, std::size_t count) {
-        return satellite >= 1 && satellite <= count ? begin + satellite - 1 : nowhere;
-    };
-    switch (constellation) {
-    case constellation::gps:
-        return place(0, gps);
-    case constellation::qzss:
-        return place(gps, qzss);
-    case constellation::galileo:
-        return place(gps + qzss, galileo);
-    case constellation::beidou:
-        return place(gps + qzss + galileo, beidou);
-    case constellation::glonass:
-        return place(gps + qzss + galileo + beidou, glonass);
-    default:
-        return nowhere;
-    }
-}
-
 void EphemerisBook::hear(const GnssNavigation& words, const GpsTime& now) noexcept {
     if (words.constellation == constellation::gps && words.signal == 0) hear_ionosphere(words);
     const auto ephemeris = collector_.add(words, now);
-    const std::size_t place = place_of(words.constellation, words.satellite);
-    if (!ephemeris || place == nowhere) return;
+    const std::size_t place = satellite_place(words.constellation, words.satellite);
+    if (!ephemeris || place == satellite_places::nowhere) return;
     auto& [newest, before] = said_[place];
     if (newest && reference(*newest) != reference(*ephemeris)) before = newest;
     newest = ephemeris;
@@ -82,8 +62,8 @@ bool EphemerisBook::is_in_time(const Ephemeris& ephemeris, const GpsTime& time) 
 /// Of two that are in time the one whose reference is nearer; whether it is healthy the newest says.
 EphemerisBook::Found EphemerisBook::find(std::uint8_t constellation, std::uint8_t satellite,
                                          const GpsTime& time) const noexcept {
-    const std::size_t place = place_of(constellation, satellite);
-    if (place == nowhere) return {nullptr, Exclusion::no_ephemeris};
+    const std::size_t place = satellite_place(constellation, satellite);
+    if (place == satellite_places::nowhere) return {nullptr, Exclusion::no_ephemeris};
     const auto& said = said_[place].newest;
     if (!said) return {nullptr, Exclusion::no_ephemeris};
     const Ephemeris& newest = *said;

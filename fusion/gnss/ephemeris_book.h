@@ -5,6 +5,7 @@
 #include "fusion/aid_status.h"
 #include "fusion/gnss/atmosphere.h"
 #include "fusion/gnss/ephemeris_collector.h"
+#include "fusion/gnss/satellite_places.h"
 #include "fusion/gnss/settings.h"
 
 #include <array>
@@ -31,21 +32,16 @@ class EphemerisBook {
     const std::optional<Klobuchar>& ionosphere() const noexcept { return ionosphere_; }
 
   private:
-    static constexpr std::size_t gps = 32, qzss = 10, galileo = 36, beidou = 63, glonass = 32;
-    static constexpr std::size_t places = gps + qzss + galileo + beidou + glonass;
-    static constexpr std::size_t nowhere = places;
-
     struct Said {
         std::optional<Ephemeris> newest, before;
     };
 
-    static std::size_t place_of(std::uint8_t constellation, std::uint8_t satellite) noexcept;
     void hear_ionosphere(const GnssNavigation& words) noexcept;
     bool is_in_time(const Ephemeris& ephemeris, const GpsTime& time) const noexcept;
 
     double max_age_s_, max_glonass_age_s_;
     EphemerisCollector collector_;
-    std::array<Said, places> said_{};
+    std::array<Said, satellite_places::all> said_{};
     std::optional<Klobuchar> ionosphere_;
 };
 

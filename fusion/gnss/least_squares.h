@@ -65,4 +65,18 @@ class LeastSquares {
     int rows_ = 0, held_ = 0;
 };
 
+/// Whether the residuals together are no larger than chance makes them.
+template <int N>
+bool agree(const LeastSquares<N>& equations, double normal_quantile) {
+    return equations.redundancy() < 1 ||
+           equations.cost_after() <= chi_square_limit(equations.redundancy(), normal_quantile);
+}
+
+/// With one observation too many it shows that one is wrong, but not which. With two it shows which, if there is only
+/// one: between high houses there are more, and of six satellites five often agree by chance on a wrong place.
+template <int N>
+bool tells_which(const LeastSquares<N>& equations) {
+    return equations.redundancy() >= 3;
+}
+
 } // namespace locus::gnss

@@ -31,12 +31,16 @@ inline double noise_variance_m2(const GnssSettings& settings, const Reception& o
            std::pow(10, -carrier_to_noise_or_usual(of.carrier_to_noise_dbhz) / 10);
 }
 
-/// Orbit and clock, multipath and noise; of the air nothing.
-inline double code_variance_m2(const GnssSettings& settings, const Reception& of) {
+/// Multipath and noise.
+inline double reception_variance_m2(const GnssSettings& settings, const Reception& of) {
     const double sine = std::max(0.05, std::sin(of.elevation_rad));
     const double factor = of.constellation == constellation::glonass ? 1.5 : 1;
-    return std::pow(of.orbit_times * settings.orbit_sigma_m, 2) +
-           std::pow(factor * settings.code_sigma_m, 2) * (1 + 1 / sine) + noise_variance_m2(settings, of);
+    return std::pow(factor * settings.code_sigma_m, 2) * (1 + 1 / sine) + noise_variance_m2(settings, of);
+}
+
+/// Orbit and clock, multipath and noise; of the air nothing.
+inline double code_variance_m2(const GnssSettings& settings, const Reception& of) {
+    return std::pow(of.orbit_times * settings.orbit_sigma_m, 2) + reception_variance_m2(settings, of);
 }
 
 /// Half the delay is left after Klobuchar's model (IS-GPS-200, 20.3.3.5.2.5); all of it when its coefficients are the

@@ -39,7 +39,7 @@ std::optional<Eigen::Vector3d> origin_of(const Site& site) {
 
 Receivers::Receivers(const Site& site, const GnssSettings& settings, Duration longest_wait)
     : settings_{settings}, gather_{std::min(duration_from_s(settings.gather_s), longest_wait)},
-      site_ecef_m_{origin_of(site)}, ephemerides_{settings}, solver_{settings} {
+      site_ecef_m_{origin_of(site)}, ephemerides_{settings}, bases_{settings}, solver_{settings} {
     receivers_.resize(static_cast<std::size_t>(settings.max_receivers));
     for (ReceiverEpoch& one : receivers_) one.signals.reserve(ReceiverEpoch::most_signals);
     sights_.reserve(ReceiverEpoch::most_signals);
@@ -111,6 +111,7 @@ void Receivers::sight(ReceiverEpoch& epoch) noexcept {
         return std::tuple{s.raw().constellation, s.raw().satellite, s.raw().signal, s.measurement.sequence};
     });
     sights_.clear();
+    bases_.prepare(epoch.time, epoch.position_ecef_m ? epoch.position_ecef_m : site_ecef_m_, ephemerides_);
     const GnssRaw* accepted = nullptr;
     for (HeardSignal& signal : epoch.signals) {
         signal.sight = sights_.size();
@@ -129,7 +130,7 @@ Exclusion Receivers::sight(const GnssRaw& raw, const GnssRaw* accepted) noexcept
     if (ephemeris == nullptr) return reason;
     const auto sight = sight_of(raw, *ephemeris);
     if (!sight) return Exclusion::impossible_orbit;
-    sights_.push_back({*sight});
+    sights_.push_back({*sight, bases_.find(raw.constellation, raw.satellite)});
     return Exclusion::none;
 }
 

@@ -6,6 +6,7 @@
 // receiver heard serves all.
 #pragma once
 
+#include "fusion/gnss/base_stations.h"
 #include "fusion/gnss/ephemeris_book.h"
 #include "fusion/gnss/epoch.h"
 #include "fusion/gnss/single_point.h"
@@ -35,6 +36,9 @@ class Receivers {
     /// Words that come before the first raw observation are passed over: nobody knows the week yet.
     void hear(const GnssNavigation& words) noexcept;
 
+    /// A pseudorange of a base station: kept for the receivers' next epochs.
+    Exclusion hear(const GnssBaseRange& range, std::uint16_t input) noexcept { return bases_.hear(range, input); }
+
     /// A fix that a receiver tells itself.
     void hear(const GnssFix& fix, Timestamp time) noexcept;
 
@@ -59,6 +63,7 @@ class Receivers {
     Duration gather_;
     std::optional<Eigen::Vector3d> site_ecef_m_;
     EphemerisBook ephemerides_;
+    BaseStations bases_;
     SinglePointSolver solver_;
     std::vector<ReceiverEpoch> receivers_; ///< with their memory, in use or not
     std::size_t receiver_count_ = 0;

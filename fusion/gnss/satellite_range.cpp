@@ -51,7 +51,7 @@ GnssFix own_fix(Address tag, const SinglePoint& point) noexcept {
     fix.sigma_vertical_m = sigma_of(enu_m2(2, 2));
     if (point.velocity_ecef_mps)
         put_velocity(fix, *point.velocity_ecef_mps, point.velocity_covariance_m2ps2.trace() / 3, axes);
-    fix.fix_type = gnss_fix_type::full;
+    fix.fix_type = 2 * point.corrected > point.satellites ? gnss_fix_type::differential : gnss_fix_type::full;
     fix.satellites = static_cast<std::uint8_t>(std::min(point.satellites, 255));
     return fix;
 }

@@ -5,6 +5,10 @@
 //   (2005): variance of a code 150^2 m^2 10^(-C/N0 / 10) under open sky: 0.8 m at 45 dBHz, 4.7 m at 30 dBHz.
 // - rate_sigma_mps: data sheets of u-blox (M8, F9): velocity to 0.05 m/s.
 // - max_ephemeris_age_s: Galileo OS Service Definition: 4 hours from toe, the longest of all.
+// - max_correction_age_s: rtklib's manual 2.4.2, E.7.4: age of differential 30 s.
+// - ionosphere_gradient_mpkm: Lee and others, Assessment of nominal ionosphere spatial decorrelation for LAAS, IEEE
+// PLANS
+//   2006: 4 mm/km at the zenith bounds days without storm.
 // - false_alarm: as is usual for receiver autonomous integrity monitoring.
 #pragma once
 
@@ -24,6 +28,8 @@ struct GnssSettings {
     double code_sigma_m = 0.3;
     double noise_at_0_dbhz_m = 150;
     double rate_sigma_mps = 0.05;
+    double max_correction_age_s = 30;
+    double ionosphere_gradient_mpkm = 0.004;
     double false_alarm = 1e-3;
     double gather_s = 0.02;
     int max_receivers = 8;
@@ -54,6 +60,12 @@ inline constexpr std::array gnss_options{
     option<&GnssSettings::rate_sigma_mps>("rate_sigma_mps", "m/s", 0.001, 10,
                                           "Of a Doppler as speed: for strong signals, 1.4 times at 45 dBHz, ten "
                                           "times for each 20 dBHz less."),
+    option<&GnssSettings::max_correction_age_s>("max_correction_age_s", "s", 0, 600,
+                                                "How old what a base station measured may be to correct a receiver. 0: "
+                                                "only what was measured at the very same time."),
+    option<&GnssSettings::ionosphere_gradient_mpkm>(
+        "ionosphere_gradient_mpkm", "m/km", 0, 1,
+        "By how much the ionosphere's delay at the zenith differs for each kilometre between base and receiver."),
     option<&GnssSettings::false_alarm>("false_alarm", "", 1e-9, 0.1,
                                        "Chance that pseudoranges without fault are taken for inconsistent."),
     option<&GnssSettings::gather_s>("gather_s", "s", 0, 1,

@@ -30,7 +30,9 @@ void Observer::observe(std::span<SightFrom> sights, const Sky& sky, const Eigen:
         if (s.reason != Exclusion::none && s.reason != Exclusion::too_low) continue;
         const LookAngles look = look_angles(axes, s.towards);
         s.reason = look.elevation_rad < mask_rad_ ? Exclusion::too_low : Exclusion::none;
-        if (s.reason == Exclusion::none) take_out_air(s, sky, at, look);
+        if (s.reason != Exclusion::none) continue;
+        take_out_air(s, sky, at, look);
+        correct(s, from_ecef_m, at.height_ellipsoid_m);
     }
 }
 
@@ -45,6 +47,21 @@ void Observer::take_out_air(SightFrom& s, const Sky& sky, const Geodetic& at, co
     s.variance_m2 = code_variance_m2(settings_, of) + ionosphere_variance_m2(ionosphere_m, sky.ionosphere.has_value()) +
                     troposphere_variance_m2(look.elevation_rad);
     s.rate_variance_m2ps2 = rate_variance_m2ps2(settings_, of);
+}
+
+/// Orbit and air are the base's as well; its multipath and noise come in for them. A base that is far off, or hears the
+/// satellite badly, would make things worse.
+void Observer::correct(SightFrom& s, const Eigen::Vector3d& at_ecef_m, double height_m) const noexcept {
+    s.is_corrected = false;
+    if (!s.correction) return;
+    Reception of = s.sight.reception;
+    of.elevation_rad = s.elevation_rad;
+    const double variance_m2 = reception_variance_m2(settings_, of) + s.correction->variance_m2 +
+                               distance_variance_m2(settings_, *s.correction, at_ecef_m, height_m, s.elevation_rad);
+    if (!(variance_m2 < s.variance_m2)) return;
+    s.is_corrected = true;
+    s.range_m -= s.correction->code_m;
+    s.variance_m2 = variance_m2;
 }
 
 } // namespace locus::gnss

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fusion/gnss/atmosphere.h"
+#include "fusion/gnss/correction.h"
 #include "fusion/gnss/sight.h"
 
 #include <optional>
@@ -12,16 +13,18 @@ namespace locus::gnss {
 
 struct SightFrom {
     Sight sight;
-    Exclusion reason = Exclusion::none; ///< not none: left out
-    bool rate_agrees = true;            ///< false: its Doppler is left out
+    std::optional<Correction> correction{}; ///< of a base station
+    Exclusion reason = Exclusion::none;     ///< not none: left out
+    bool rate_agrees = true;                ///< false: its Doppler is left out
 
     // What observe() fills in.
     Eigen::Vector3d satellite_ecef_m{0, 0, 0};  ///< turned by the Earth's rotation during the way
     Eigen::Vector3d velocity_ecef_mps{0, 0, 0}; ///< alike
     Eigen::Vector3d towards{0, 0, 0};           ///< unit vector to the satellite
     double elevation_rad = 0;
-    double range_m = 0;   ///< pseudorange without satellite's clock, ionosphere and troposphere
-    double carrier_m = 0; ///< alike; 0: none
+    bool is_corrected = false; ///< by the base station: only where that makes it surer
+    double range_m = 0;        ///< pseudorange without satellite's clock, ionosphere and troposphere
+    double carrier_m = 0;      ///< alike; 0: none
     double variance_m2 = 1;
     double rate_variance_m2ps2 = 1;
 };
@@ -44,6 +47,7 @@ class Observer {
 
   private:
     void take_out_air(SightFrom& s, const Sky& sky, const Geodetic& at, const LookAngles& look) const noexcept;
+    void correct(SightFrom& s, const Eigen::Vector3d& at_ecef_m, double height_m) const noexcept;
 
     GnssSettings settings_;
     double mask_rad_;

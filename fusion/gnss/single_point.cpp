@@ -87,19 +87,6 @@ std::optional<PointEquations> converge(std::span<SightFrom> sights, const Sky& s
     return std::nullopt;
 }
 
-template <int N>
-bool agree(const LeastSquares<N>& equations, double normal_quantile) {
-    return equations.redundancy() < 1 ||
-           equations.cost_after() <= chi_square_limit(equations.redundancy(), normal_quantile);
-}
-
-/// With one observation too many it shows that one is wrong, but not which. With two it shows which, if there is only
-/// one: between high houses there are more, and of six satellites five often agree by chance on a wrong place.
-template <int N>
-bool tells_which(const LeastSquares<N>& equations) {
-    return equations.redundancy() >= 3;
-}
-
 template <class Outlying>
 SightFrom& odd_one(std::span<SightFrom> sights, const Outlying& outlying) {
     return *std::ranges::max_element(sights, {}, outlying);
@@ -149,6 +136,8 @@ std::optional<SinglePoint> SinglePointSolver::solve(std::span<SightFrom> sights,
     point.covariance_m2 = equations->covariance().topLeftCorner<axes, axes>() * widening(*equations, point.consistent);
     if (!is_possible(point)) return std::nullopt;
     point.satellites = static_cast<int>(std::ranges::count_if(sights, gives_range));
+    point.corrected = static_cast<int>(
+        std::ranges::count_if(sights, [](const SightFrom& s) { return gives_range(s) && s.is_corrected; }));
     solve_velocity(sights, point);
     return point;
 }

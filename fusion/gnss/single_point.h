@@ -13,6 +13,7 @@ struct SinglePoint {
     Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();
     std::array<double, clock_count> clocks_m{}; ///< of the receiver, by clock_of(); 0: no satellite tells
     int satellites = 0;
+    int corrected = 0;      ///< of these, by a base station
     bool consistent = true; ///< false: they disagree, and nothing tells which one it is; the covariance is wider for it
 
     std::optional<Eigen::Vector3d> velocity_ecef_mps;

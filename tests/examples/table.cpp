@@ -22,6 +22,7 @@ std::vector<DecoderExample> pdoa_json();
 std::vector<DecoderExample> pulson();
 std::vector<DecoderExample> radio();
 std::vector<DecoderExample> robomaster();
+std::vector<DecoderExample> rtcm3();
 std::vector<DecoderExample> trek1000();
 std::vector<DecoderExample> tum();
 std::vector<DecoderExample> ubx();
@@ -33,8 +34,8 @@ namespace {
 
 constexpr std::array families{apps_json,     cwru_can,     dw1000_can, dwm1001,    epson_g370, layouts,
                               listener_json, loco_sniffer, navlab,     nlink,      nmea,       obd2,
-                              pdoa_json,     pulson,       radio,      robomaster, trek1000,   tum,
-                              ubx,           vectornav,    witmotion,  xsens};
+                              pdoa_json,     pulson,       radio,      robomaster, rtcm3,      trek1000,
+                              tum,           ubx,          vectornav,  witmotion,  xsens};
 
 std::vector<DecoderExample> gather() {
     std::vector<DecoderExample> examples;

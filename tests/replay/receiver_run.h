@@ -27,6 +27,7 @@ class ReceiverRun final : public gnss::Receivers::Output {
 
     void hear(const Measurement& m) {
         if (const auto* words = std::get_if<GnssNavigation>(&m.observation)) receivers_.hear(*words);
+        if (const auto* base = std::get_if<GnssBaseRange>(&m.observation)) receivers_.hear(*base, m.input);
         if (!std::holds_alternative<GnssRaw>(m.observation)) return;
         const Exclusion reason = receivers_.hear(m, {}, m.time, *this);
         if (reason != Exclusion::none) judge(m, {}, reason);

@@ -14,6 +14,7 @@ struct Reverse {
     bool operator()(ClockSync&) const { return false; }
     bool operator()(GnssRaw&) const { return false; }
     bool operator()(GnssNavigation&) const { return false; }
+    bool operator()(GnssBaseRange&) const { return false; }
     bool operator()(ImuSample& imu) const {
         negate(imu.angular_rate_radps);
         return true;

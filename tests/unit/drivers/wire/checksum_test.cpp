@@ -17,6 +17,11 @@ TEST(Checksum, Crc16) {
     EXPECT_EQ(crc16_modbus(digits), 0x4B37);
 }
 
+TEST(Checksum, Crc24) {
+    EXPECT_EQ(crc24q(digits), 0xCDE703u);
+    EXPECT_EQ(crc24q({}), 0u);
+}
+
 TEST(Checksum, Sums) {
     EXPECT_EQ(sum8(digits), 0xDD);
     EXPECT_EQ(xor8(digits), 0x31);

@@ -131,6 +131,38 @@ TEST_F(ReceiversTest, EveryRawObservationIsCountedOnceWithItsReason) {
     }
 }
 
+/// Heard at 1 s and 2 s, with a receiver's epoch between.
+TEST_F(ReceiversTest, ABaseStationIsASourceOfItsOwnAndMakesFixesDifferential) {
+    learn();
+    synthetic::Truth base;
+    base.velocity_ecef_mps.setZero();
+    std::uint64_t told = 0;
+    for (const double after_s : {1.0, 2.0}) {
+        for (const GnssRaw& raw : synthetic::epoch(base, start + after_s)) {
+            GnssBaseRange range{address(2003), raw.receiver_time_s_in_gps_week, raw.pseudorange_m};
+            for (std::size_t i = 0; i < 3; ++i)
+                range.antenna_ecef_m[i] = base.position_ecef_m[static_cast<Eigen::Index>(i)];
+            range.carrier_to_noise_dbhz = 45;
+            range.constellation = raw.constellation;
+            range.satellite = raw.satellite;
+            submit(range);
+            ++told;
+        }
+        for (const GnssRaw& raw : epoch(after_s + 0.2)) submit(raw);
+        step();
+    }
+    ASSERT_EQ(given.fixes.size(), 2u);
+    EXPECT_EQ(given.fixes.back().fix_type, gnss_fix_type::differential);
+    const auto sources = engine->sources();
+    const auto shown = std::ranges::find(sources, SourceKind::base, &AidStatus::kind);
+    ASSERT_NE(shown, sources.end());
+    EXPECT_EQ(shown->source, address(2003));
+    EXPECT_EQ(shown->last_verdict.reason, Exclusion::none);
+    EXPECT_EQ(shown->counters.received, told);
+    EXPECT_EQ(shown->counters.used, told / 2) << "the first epoch came before there was anything to correct";
+    EXPECT_GT(shown->last_used_time, Timestamp{});
+}
+
 TEST_F(ReceiversTest, TwoSatellitesStillGiveTheirRanges) {
     learn();
     auto raws = epoch(1);
