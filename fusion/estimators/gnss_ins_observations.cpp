@@ -64,6 +64,9 @@ double GnssInsObservations::code_sigma_m(const SatelliteRange& range, double ele
 double GnssInsObservations::rate_sigma_mps(const SatelliteRange& range, double elevation_sine) const noexcept {
     return stated_or(range.sigma_rate_mps, settings_.rate_sigma_mps * weakness(range) / elevation_sine);
 }
+double GnssInsObservations::carrier_sigma_m(const SatelliteRange& range, double elevation_sine) const noexcept {
+    return settings_.carrier_sigma_m * weakness(range) / elevation_sine;
+}
 double GnssInsObservations::satellite_error_sigma_m(double elevation_sine) const noexcept {
     return settings_.satellite_error_sigma_m / elevation_sine;
 }

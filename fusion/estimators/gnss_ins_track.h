@@ -38,7 +38,7 @@ struct GnssInsStart {
     double clock_drift_mps = 0, clock_drift_sigma_mps = 0;
 };
 
-class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
+class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 32> {
   public:
     explicit GnssInsTrack(GnssInsMotionModel model) noexcept;
 
@@ -54,6 +54,10 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
     void move_by(const Vector& error) noexcept;
     /// Makes the attitude known at once: the forward axis along `course_ecef`, tilt as levelled.
     void begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept;
+    /// Keeps the place of a point and the clock as states of their own, for what is observed of both now and later.
+    void hold_place(const Eigen::Vector3d& lever_body_m) noexcept;
+    /// Where x, y, z and clock then stand in the state; the first is -1 when nothing is held.
+    std::array<int, 4> held_place() const noexcept;
     /// A receiver set its clock: by `jump_m`, not surer than `sigma_m`.
     void shift_clock(double jump_m, double sigma_m) noexcept;
 
