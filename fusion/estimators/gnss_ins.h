@@ -64,9 +64,12 @@ class GnssIns final : public Estimator {
     Verdict take_rate(const SatelliteRange& range, filter::Gate& gate) noexcept;
     bool clock_jumped(const SatelliteRange& range, const GnssInsScalar& code) noexcept;
     CarrierUse hear_carrier(const SatelliteRange& range, Timestamp time) noexcept;
-    CarrierUse look_at(const gnss::CarrierSight& now) const noexcept;
+    using CarrierEquations = std::array<gnss::CarrierEquation, GnssInsCarriers::room>;
+    using CarrierOwners = std::array<gnss::CarrierSight*, GnssInsCarriers::room>;
     void finish_epoch() noexcept;
     void use_carriers() noexcept;
+    std::size_t changes(CarrierEquations& equations, CarrierOwners& whose) noexcept;
+    bool take_change(const gnss::CarrierSight& now) noexcept;
     Verdict take_fix(const GnssFix& fix) noexcept;
     bool height_is_off(const GnssFix& fix) noexcept;
     void stand() noexcept;

@@ -3,7 +3,7 @@
 #include "fusion/estimators/gnss_ins.h"
 #include "fusion/geometry/vector.h"
 
-#include <array>
+#include <span>
 
 namespace locus {
 namespace {
@@ -13,7 +13,11 @@ constexpr double longest_change_s = 5;
 
 gnss::CarrierEquation equation_of(const GnssInsScalar& change) {
     const auto by_axis = [&](int axis) { return change.jacobian(GnssInsTrack::place(axis, 0)); };
-    return {{by_axis(0), by_axis(1), by_axis(2), 1}, change.innovation, change.variance};
+    gnss::CarrierEquation equation;
+    equation.row << by_axis(0), by_axis(1), by_axis(2), 1;
+    equation.residual_m = change.innovation;
+    equation.variance_m2 = change.variance;
+    return equation;
 }
 
 } // namespace
@@ -35,33 +39,37 @@ void GnssIns::finish_epoch() noexcept {
     carriers_.turn_over();
 }
 
-/// Whether the carrier's change can be used as far as it shows by itself.
-CarrierUse GnssIns::look_at(const gnss::CarrierSight& now) const noexcept {
-    const gnss::CarrierSight* const before = carriers_.before(now);
+/// Of the satellites whose lock held; `whose` says whose they are.
+std::size_t GnssIns::changes(CarrierEquations& equations, CarrierOwners& whose) noexcept {
     const double dt_s = carriers_.since_before_s();
-    if (before == nullptr || !is_unbroken(*before, now, dt_s)) return CarrierUse::new_lock;
-    return agrees_with_doppler(*before, now, dt_s, gate_in_sigma_) ? CarrierUse::used : CarrierUse::slipped;
+    std::size_t count = 0;
+    for (gnss::CarrierSight& now : carriers_.waiting()) {
+        const gnss::CarrierSight* const before = carriers_.before(now);
+        now.use = CarrierUse::new_lock;
+        if (before == nullptr || !is_unbroken(*before, now, dt_s)) continue;
+        equations[count] = equation_of(observations_->carrier_change(track_, *before, now, dt_s));
+        equations[count].beyond_m = beyond_doppler_m(*before, now, dt_s);
+        equations[count].beyond_sigma_m = beyond_doppler_sigma_m(*before, now, dt_s);
+        whose[count++] = &now;
+    }
+    return count;
 }
 
 void GnssIns::use_carriers() noexcept {
-    const auto change = [&](const gnss::CarrierSight& now) {
-        return observations_->carrier_change(track_, *carriers_.before(now), now, carriers_.since_before_s());
-    };
-    std::array<gnss::CarrierEquation, GnssInsCarriers::room> equations;
-    std::array<gnss::CarrierSight*, GnssInsCarriers::room> whose{};
-    std::size_t count = 0;
-    for (gnss::CarrierSight& now : carriers_.waiting()) {
-        now.use = look_at(now);
-        if (now.use != CarrierUse::used) continue;
-        equations[count] = equation_of(change(now));
-        whose[count++] = &now;
-    }
-    gnss::leave_out_slips(std::span(equations).first(count), consistency_quantile_);
-    for (std::size_t i = 0; i < count; ++i) {
-        filter::Gate once; // a slip is over with its epoch: there is nobody to be patient with
-        const bool used = equations[i].agrees && weigh(Aid::carrier, change(*whose[i]), once).reason == Exclusion::none;
-        whose[i]->use = used ? CarrierUse::used : CarrierUse::slipped;
-    }
+    CarrierEquations equations;
+    CarrierOwners whose{};
+    const auto all = std::span(equations).first(changes(equations, whose));
+    gnss::leave_out_against_doppler(all, gate_in_sigma_);
+    gnss::leave_out_slips(all, consistency_quantile_);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        whose[i]->use = all[i].agrees && take_change(*whose[i]) ? CarrierUse::used : CarrierUse::slipped;
+}
+
+bool GnssIns::take_change(const gnss::CarrierSight& now) noexcept {
+    const gnss::CarrierSight& before = *carriers_.before(now);
+    filter::Gate once; // a slip is over with its epoch: there is nobody to be patient with
+    const auto change = observations_->carrier_change(track_, before, now, carriers_.since_before_s());
+    return weigh(Aid::carrier, change, once).reason == Exclusion::none;
 }
 
 } // namespace locus

@@ -3,6 +3,7 @@
 #include "fusion/gnss/least_squares.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace locus::gnss {
@@ -14,6 +15,8 @@ using StepEquations = LeastSquares<4>;
 constexpr double lock_step_s = 0.05;
 /// How an acceleration changes: ISO 15622 lets a cruise control change it by 2.5 m/s^3, and drivers are like that.
 constexpr double jerk_mps3 = 2.5;
+
+constexpr std::size_t most_changes = 64;
 
 double square_of(double x) { return x * x; }
 
@@ -39,14 +42,27 @@ bool is_unbroken(const CarrierSight& before, const CarrierSight& now, double dt_
     return lock_s >= dt_s - lock_step_s && grown_s >= 0 && grown_s <= dt_s + lock_step_s;
 }
 
+double beyond_doppler_m(const CarrierSight& before, const CarrierSight& now, double dt_s) noexcept {
+    return now.carrier_m - before.carrier_m - dt_s * (before.rate_mps + now.rate_mps) / 2;
+}
+
 // The mean of the rates at both ends is the mean rate but for a twelfth of dt^2 times the jerk (trapezoidal rule).
-bool agrees_with_doppler(const CarrierSight& before, const CarrierSight& now, double dt_s,
-                         double gate_in_sigma) noexcept {
-    if (!std::isfinite(before.rate_mps) || !std::isfinite(now.rate_mps)) return true;
-    const double off_m = now.carrier_m - before.carrier_m - dt_s * (before.rate_mps + now.rate_mps) / 2;
+double beyond_doppler_sigma_m(const CarrierSight& before, const CarrierSight& now, double dt_s) noexcept {
     const double by_rates_m = dt_s * std::hypot(before.rate_sigma_mps, now.rate_sigma_mps) / 2;
     const double by_jerk_m = jerk_mps3 * dt_s * dt_s * dt_s / 12;
-    return std::abs(off_m) <= gate_in_sigma * std::hypot(change_sigma_m(before, now, dt_s), by_rates_m, by_jerk_m);
+    return std::hypot(change_sigma_m(before, now, dt_s), by_rates_m, by_jerk_m);
+}
+
+void leave_out_against_doppler(std::span<CarrierEquation> equations, double gate_in_sigma) noexcept {
+    std::array<double, most_changes> beyond_m{};
+    std::size_t count = 0;
+    for (const CarrierEquation& one : equations)
+        if (std::isfinite(one.beyond_m) && count < beyond_m.size()) beyond_m[count++] = one.beyond_m;
+    if (count < 3) return;
+    const auto middle = beyond_m.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(beyond_m.begin(), middle, beyond_m.begin() + static_cast<std::ptrdiff_t>(count));
+    for (CarrierEquation& one : equations)
+        if (std::abs(one.beyond_m - *middle) > gate_in_sigma * one.beyond_sigma_m) one.agrees = false;
 }
 
 void leave_out_slips(std::span<CarrierEquation> equations, double normal_quantile) noexcept {

@@ -32,17 +32,24 @@ double change_sigma_m(const CarrierSight& before, const CarrierSight& now, doubl
 /// anew does not, nor one whose device broke it for an epoch, where half a cycle came into doubt or the clock was set.
 bool is_unbroken(const CarrierSight& before, const CarrierSight& now, double dt_s) noexcept;
 
-/// Whether the carrier changed as the Dopplers of its two ends say. True where one has none.
-bool agrees_with_doppler(const CarrierSight& before, const CarrierSight& now, double dt_s,
-                         double gate_in_sigma) noexcept;
+/// By how much the carrier changed more than the Dopplers of its two ends say. NaN where one has none.
+double beyond_doppler_m(const CarrierSight& before, const CarrierSight& now, double dt_s) noexcept;
+
+/// Sigma of that: the Dopplers' noise, the carrier's, and what the vehicle does between them.
+double beyond_doppler_sigma_m(const CarrierSight& before, const CarrierSight& now, double dt_s) noexcept;
 
 /// A change as an equation: of a step of the antenna and of the clock, both in m.
 struct CarrierEquation {
     Eigen::Vector4d row;
     double residual_m = 0;
     double variance_m2 = 0;
-    bool agrees = true; ///< false: left out
+    double beyond_m = 0, beyond_sigma_m = 0; ///< as above
+    bool agrees = true;                      ///< false: left out
 };
+
+/// Leaves out the changes that differ from their Dopplers otherwise than most do: what they have in common is the
+/// clock, whose wandering no mean of two rates knows. Fewer than three with Dopplers: they stay.
+void leave_out_against_doppler(std::span<CarrierEquation> equations, double gate_in_sigma) noexcept;
 
 /// Leaves out the changes that do not agree with the others, the one that sticks out most first; all of them when
 /// nothing tells which it is. Too few to test: they stay. `normal_quantile`: of one less the chance of a false alarm.
