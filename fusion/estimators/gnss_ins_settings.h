@@ -2,7 +2,7 @@
 // - inertial sensor: industrial MEMS on a running engine. Data sheets (ADIS16470, BMI088, Epson G370) say 0.0004 to
 //   0.002 m/s^2/sqrt(Hz) and 2e-5 to 2.5e-4 rad/s/sqrt(Hz); an idling car showed 0.004 and 1.4e-4 at a standstill,
 //   and driving adds a few times that. Biases over temperature 30 mg and 0.6 deg/s; they walk by a tenth of that in an
-//   hour.
+//   hour. Scales: data sheets of MEMS units allow from 0.5 to 3 % (MPU-6000: 3 %).
 // - satellites: code of a multi-band receiver 0.3 m at the zenith and Doppler 0.05 m/s (u-blox F9P data sheet: 1.5 m
 //   CEP, 0.05 m/s), divided by the sine of the elevation and times 10^((45 dBHz - C/N0) / 20), as noise in a
 //   correlator goes. What the atmosphere and reflections leave, 1.5 m that stays for a minute, is the user range error
@@ -34,6 +34,8 @@ struct GnssInsSettings {
     double acceleration_bias_walk_mps2_rts = 5e-4;
     double angular_rate_bias_sigma_radps = 0.01;
     double angular_rate_bias_walk_radps_rts = 2e-5;
+    bool estimate_scale = false;
+    double scale_sigma = 0.01;
     double unaided_acceleration_mps2_rthz = 2;
     double align_speed_mps = 4;
     double align_heading_sigma_deg = 5;
@@ -107,6 +109,9 @@ inline constexpr std::array gnss_ins_options{
                                                             "Bias that the gyroscope may have at the start."),
     option<&GnssInsSettings::angular_rate_bias_walk_radps_rts>("angular_rate_bias_walk_radps_rts", "rad/s/sqrt(s)", 0,
                                                                1, "How much that bias changes with time."),
+    option<&GnssInsSettings::estimate_scale>(
+        "estimate_scale", "Whether the scales of the inertial sensor's six axes are estimated beside its biases."),
+    option<&GnssInsSettings::scale_sigma>("scale_sigma", "", 1e-6, 0.5, "How far from 1 those scales may be."),
     option<&GnssInsSettings::unaided_acceleration_mps2_rthz>(
         "unaided_acceleration_mps2_rthz", "m/s^2/sqrt(Hz)", 0.01, 100,
         "How the vehicle accelerates, as noise, while no aligned inertial sensor tells."),

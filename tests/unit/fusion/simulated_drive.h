@@ -27,6 +27,7 @@ inline Site town() {
 struct DriveSettings {
     double force_noise_mps2_rthz = 0.02, rate_noise_radps_rthz = 3e-4;
     double force_bias_mps2 = 0.05, rate_bias_radps = 0.002; ///< sigmas that the biases are drawn with
+    double scale_off = 0;                                   ///< of all six axes of the inertial sensor
     double code_sigma_m = 1, rate_sigma_mps = 0.05;
     double carrier_sigma_m = 0; ///< 0: there is no carrier
     double clock_phase_m_rts = 0.1, clock_drift_mps_rts = 0.2;
@@ -100,6 +101,8 @@ class SimulatedDrive {
         const double root_hz = std::sqrt(settings_.imu_hz);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<Eigen::Index>(i);
+            sample.specific_force_mps2[i] *= 1 + settings_.scale_off;
+            sample.angular_rate_radps[i] *= 1 + settings_.scale_off;
             sample.specific_force_mps2[i] += force_bias_(axis) + settings_.force_noise_mps2_rthz * root_hz * draw();
             sample.angular_rate_radps[i] += rate_bias_(axis) + settings_.rate_noise_radps_rthz * root_hz * draw();
         }
