@@ -83,7 +83,9 @@ class PlainScanner {
         const char* const from = at_;
         at_ = std::find_if(at_, end_, [](char c) { return c == '"' || c == '\\' || c < ' ' || c > '~'; });
         text = {from, static_cast<std::size_t>(at_ - from)};
-        return take('"');
+        if (!next_is('"')) return false;
+        ++at_;
+        return true;
     }
 
     /// JSON's grammar of numbers (RFC 8259, section 6). -0 is left to the other reader, to which it is a whole 0.

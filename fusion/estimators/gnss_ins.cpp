@@ -155,12 +155,15 @@ Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate)
 
 // ---- pose
 
+/// With the carriers that wait for the end of their epoch, which is over by then.
 Estimate GnssIns::predict(Timestamp time) const noexcept {
-    if (time > time_ && carriers_.is_waiting()) {
-        GnssIns then = *this;
-        then.move_to(time);
-        return then.predict(time);
-    }
+    if (time <= time_ || !carriers_.is_waiting()) return prospect(time);
+    GnssIns then = *this;
+    then.move_to(time);
+    return then.prospect(time);
+}
+
+Estimate GnssIns::prospect(Timestamp time) const noexcept {
     Estimate estimate;
     estimate.time = time;
     estimate.reset_count = reset_count_;

@@ -83,6 +83,7 @@ class GnssIns final : public Estimator {
     /// `memory`: observations of this kind over which the share of refused ones is taken.
     void note(const Verdict& verdict, Timestamp time, double memory) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
+    Estimate prospect(Timestamp time) const noexcept;
     void report(const GnssInsTrack& track, Estimate& estimate) const noexcept;
 
     const GnssInsSettings& settings() const noexcept { return observations_->settings(); }

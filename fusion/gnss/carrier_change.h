@@ -40,7 +40,7 @@ double beyond_doppler_sigma_m(const CarrierSight& before, const CarrierSight& no
 
 /// A change as an equation: of a step of the antenna and of the clock, both in m.
 struct CarrierEquation {
-    Eigen::Vector4d row;
+    Eigen::Vector4d row = Eigen::Vector4d::Zero();
     double residual_m = 0;
     double variance_m2 = 0;
     double beyond_m = 0, beyond_sigma_m = 0; ///< as above

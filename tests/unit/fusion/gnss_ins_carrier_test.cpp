@@ -200,7 +200,7 @@ TEST(GnssInsCarrier, AProspectKnowsTheEpochThatIsNotOverYet) {
 
 // ---- an epoch's changes against one another
 
-std::vector<gnss::CarrierEquation> changes(std::size_t count, double slip_m, std::size_t which) {
+std::vector<gnss::CarrierEquation> carrier_changes(std::size_t count, double slip_m, std::size_t which) {
     std::vector<gnss::CarrierEquation> list;
     for (std::size_t i = 0; i < count; ++i) {
         const double azimuth = 2.4 * static_cast<double>(i), elevation = 0.3 + 0.13 * static_cast<double>(i);
@@ -219,14 +219,14 @@ std::vector<gnss::CarrierEquation> changes(std::size_t count, double slip_m, std
 
 TEST(CarrierChange, TheOneThatSlippedIsFoundAmongNine) {
     for (std::size_t which = 0; which < 9; ++which) {
-        auto list = changes(9, cycle_m, which);
+        auto list = carrier_changes(9, cycle_m, which);
         gnss::leave_out_slips(list, 3.1);
         for (std::size_t i = 0; i < list.size(); ++i) EXPECT_EQ(list[i].agrees, i != which) << which << ' ' << i;
     }
 }
 
 TEST(CarrierChange, WithoutEnoughToTellWhichAllAreLeftOutAndWithNoneToTestAllStay) {
-    auto six = changes(6, 1, 0), four = changes(4, 1, 0), good = changes(6, 0, 0);
+    auto six = carrier_changes(6, 1, 0), four = carrier_changes(4, 1, 0), good = carrier_changes(6, 0, 0);
     gnss::leave_out_slips(six, 3.1);
     gnss::leave_out_slips(four, 3.1);
     gnss::leave_out_slips(good, 3.1);
@@ -258,8 +258,11 @@ TEST(CarrierChange, MustDifferFromTheirDopplersAlike) {
     now.carrier_m = 0.25 * 500.5 + cycle_m;
     EXPECT_NEAR(gnss::beyond_doppler_m(before, now, 0.25), cycle_m, 1e-9);
     EXPECT_NEAR(gnss::beyond_doppler_sigma_m(before, now, 0.25), 0.0135, 1e-4);
-    auto five = changes(5, 0, 0), two = changes(2, 0, 0);
-    for (auto& one : five) one.beyond_m = 0.1, one.beyond_sigma_m = 0.0135; // the clock ran
+    auto five = carrier_changes(5, 0, 0), two = carrier_changes(2, 0, 0);
+    for (auto& one : five) {
+        one.beyond_m = 0.1; // the clock ran
+        one.beyond_sigma_m = 0.0135;
+    }
     five[1].beyond_m += cycle_m;
     five[2].beyond_m = std::nan(""); // has no Doppler
     two[0].beyond_m = cycle_m;

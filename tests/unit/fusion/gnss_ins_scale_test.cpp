@@ -11,7 +11,7 @@
 namespace locus {
 namespace {
 
-constexpr double scale_off = 0.03;
+constexpr double scales_off = 0.03;
 constexpr int gyroscope_up = 5; ///< of the six scales: the one that curves show
 
 GnssInsSettings scale_settings(bool estimate) {
@@ -56,12 +56,12 @@ TEST(GnssInsScale, CurvesShowTheGyroscopesScale) {
     double squares = 0;
     constexpr int runs = 10;
     for (unsigned seed = 1; seed <= runs; ++seed) {
-        ScaleCar car(true, scale_off, seed);
+        ScaleCar car(true, scales_off, seed);
         car.run(150, true);
         const GnssInsTrack& track = car.filter.track();
         const int at = track.scales_at() + gyroscope_up;
         ASSERT_GE(track.scales_at(), 0);
-        const double error = track.state(at) - scale_off, sigma = std::sqrt(track.covariance(at, at));
+        const double error = track.state(at) - scales_off, sigma = std::sqrt(track.covariance(at, at));
         squares += error * error / (sigma * sigma * runs);
         EXPECT_LT(sigma, 0.01) << "half of what it began with";
         EXPECT_LT(std::abs(error), 0.015) << seed;
@@ -84,7 +84,7 @@ double dead_reckoned_m(bool estimate, double off) {
 }
 
 TEST(GnssInsScale, CarryFurtherThroughAnOutageWhereTheyAreOffAndNoLessFarWhereTheyAreRight) {
-    const double with = dead_reckoned_m(true, scale_off), without = dead_reckoned_m(false, scale_off);
+    const double with = dead_reckoned_m(true, scales_off), without = dead_reckoned_m(false, scales_off);
     const double right_with = dead_reckoned_m(true, 0), right_without = dead_reckoned_m(false, 0);
     std::printf("after 20 s alone, scales 3 %% off: %.1f m with, %.1f m without; right: %.1f, %.1f m\n", with, without,
                 right_with, right_without);

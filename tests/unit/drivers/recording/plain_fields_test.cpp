@@ -19,7 +19,7 @@ bool is_plain(std::string_view line) {
 }
 
 /// Empty when both say the same, or the quick one leaves it to the other.
-std::string difference(const std::string& line) {
+std::string disagreement(const std::string& line) {
     JsonFields plain, judged;
     std::string error;
     if (!plain_json_fields(line, plain)) return {};
@@ -33,11 +33,11 @@ std::string difference(const std::string& line) {
     return {};
 }
 
-TEST(PlainFields, EveryLineThatIsWrittenIsPlain) {
+TEST(PlainFields, ReadsWhatIsWrittenAsTheOtherDoes) {
     EXPECT_TRUE(rc::check([] {
         const std::string line = to_json_line(test::random_measurement());
-        RC_ASSERT(is_plain(line));
-        RC_ASSERT(difference(line).empty());
+        RC_CLASSIFY(is_plain(line)); // all but numbers beyond 1e99
+        RC_ASSERT(disagreement(line).empty());
     }));
 }
 
@@ -102,7 +102,7 @@ TEST(PlainFields, NeverReadsADamagedLineOtherwise) {
                 line.erase(at, 1);
         }
         taken += is_plain(line);
-        ASSERT_EQ(difference(line), "") << line;
+        ASSERT_EQ(disagreement(line), "") << line;
     }
     EXPECT_GT(taken, 5'000U) << "the test would say nothing";
     EXPECT_LT(taken, 95'000U);
