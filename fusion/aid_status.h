@@ -114,6 +114,16 @@ constexpr std::string_view exclusion_sentence(Exclusion reason) {
     return exclusion_texts[static_cast<std::size_t>(reason)].sentence;
 }
 
+/// What became of the change of a satellite's carrier that ended with its epoch before the last observation.
+enum class CarrierUse : std::uint8_t { none, used, new_lock, slipped, count_ };
+
+inline constexpr std::array<ExclusionText, static_cast<std::size_t>(CarrierUse::count_)> carrier_texts{{
+    {"none", "no carrier, or not used"},
+    {"used", "used with its carrier"},
+    {"new_lock", "used; its carrier was locked anew"},
+    {"slipped", "used; its carrier disagrees with its Doppler or the other sources"},
+}};
+
 /// What an estimator answers to one observation.
 struct Verdict {
     Exclusion reason = Exclusion::none;
@@ -121,12 +131,17 @@ struct Verdict {
     float innovation_sigma = unknown_f; ///< predicted standard deviation of the innovation
     float test_ratio = unknown_f;       ///< |innovation| over the gate; above 1 would be excluded
     float weight = 1;                   ///< robust weight, 0..1
+    CarrierUse carrier = CarrierUse::none;
 };
 
 /// Of an innovation and its predicted standard deviation, before a gate at `limit_in_sigma` decides.
 inline Verdict verdict_of(double innovation, double innovation_sigma, double limit_in_sigma) noexcept {
-    return {Exclusion::none, static_cast<float>(innovation), static_cast<float>(innovation_sigma),
-            static_cast<float>(std::abs(innovation) / (innovation_sigma * limit_in_sigma)), 1};
+    return {Exclusion::none,
+            static_cast<float>(innovation),
+            static_cast<float>(innovation_sigma),
+            static_cast<float>(std::abs(innovation) / (innovation_sigma * limit_in_sigma)),
+            1,
+            CarrierUse::none};
 }
 
 /// The same measurement kept out, so that nothing of it counts.

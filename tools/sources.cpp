@@ -1,4 +1,5 @@
 // locus sources: every anchor and input, how it does, and in a sentence why it is not used.
+#include "fusion/aid_status.h"
 #include "tools/client/command.h"
 #include "tools/client/fields.h"
 #include "tools/client/source.h"
@@ -24,8 +25,15 @@ std::string name_or_address(const json& item) {
     return name.empty() ? text(item, "address") : name;
 }
 
+/// Of a satellite also what became of its carrier.
+std::string use_sentence(const json& source) {
+    const std::string carrier = text(source, "carrier");
+    const auto known = std::ranges::find(carrier_texts, carrier, &ExclusionText::name);
+    return carrier.empty() || known == carrier_texts.end() ? "used" : std::string{known->sentence};
+}
+
 std::string verdict(const json& source) {
-    if (in_use(source)) return "used";
+    if (in_use(source)) return use_sentence(source);
     if (flag(source, "used")) return fmt::format("silent for {}", duration(number(source, "last_used_age_s")));
     const std::string sentence = text(source, "sentence");
     return sentence.empty() ? text(source, "reason") : sentence;

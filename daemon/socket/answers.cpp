@@ -69,6 +69,8 @@ ordered_json source_json(const AidStatus& source, const Roster& roster, Timestam
     object["used"] = verdict.reason == Exclusion::none;
     object["reason"] = exclusion_name(verdict.reason);
     object["sentence"] = exclusion_sentence(verdict.reason);
+    if (verdict.carrier != CarrierUse::none)
+        object["carrier"] = carrier_texts[static_cast<std::size_t>(verdict.carrier)].name;
     if (source.last_time != Timestamp{}) put_finite(object, "observation", source.last_observation);
     put_finite(object, "innovation", verdict.innovation);
     put_finite(object, "innovation_sigma", verdict.innovation_sigma);

@@ -130,7 +130,7 @@ void Observations::give(const Satellite& satellite, const std::vector<Signal>& s
         raw.tag = tag_;
         raw.signal = *number;
         raw.glonass_slot = *slot;
-        if (signal.carrier_cycles) raw.lock_s = lock_s(raw, signal.slipped);
+        if (signal.carrier_cycles) raw.lock_s = lock_s(raw, signal);
         if (give(raw, sink)) given |= 1u << *number;
     }
 }
@@ -149,11 +149,13 @@ bool Observations::give(const GnssRaw& raw, MeasurementSink& sink) {
     return true;
 }
 
-float Observations::lock_s(const GnssRaw& raw, bool slipped) {
+/// Half a cycle that is in doubt is no slip while the doubt stays; where the doubt begins or ends the lock begins anew.
+float Observations::lock_s(const GnssRaw& raw, const Signal& signal) {
     const std::uint32_t key = raw.constellation << 16u | raw.satellite << 8u | raw.signal;
-    const auto [place, fresh] = locks_.try_emplace(key, Lock{time_, counts_.epochs});
+    const auto [place, fresh] = locks_.try_emplace(key, Lock{time_, counts_.epochs, false});
     Lock& lock = place->second;
-    if (slipped || fresh || lock.epoch + 1 != counts_.epochs) lock.since = time_;
+    const bool settled = std::exchange(lock.half_cycle, signal.half_cycle) == signal.half_cycle;
+    if (signal.slipped || !settled || fresh || lock.epoch + 1 != counts_.epochs) lock.since = time_;
     lock.epoch = counts_.epochs;
     return static_cast<float>(time_ - lock.since);
 }

@@ -36,6 +36,7 @@ class Observations {
     struct Lock {
         GpsTime since;
         std::uint64_t epoch = 0; ///< the last that had it
+        bool half_cycle = false; ///< it was in doubt then
     };
 
     Address tag_;
@@ -52,7 +53,7 @@ class Observations {
     void give(const Satellite& satellite, const std::vector<Signal>& signals, MeasurementSink& sink);
     bool give(const GnssRaw& raw, MeasurementSink& sink);
     std::optional<std::uint8_t> slot_of(const Satellite& satellite) const;
-    float lock_s(const GnssRaw& raw, bool slipped);
+    float lock_s(const GnssRaw& raw, const Signal& signal);
 };
 
 } // namespace locus::gnss::rinex

@@ -24,19 +24,20 @@ std::optional<double> value_at(std::string_view line, std::size_t index, std::st
     return *value == 0 ? std::nullopt : value;
 }
 
-bool lost_lock_at(std::string_view line, std::size_t index) {
-    const auto indicator = whole(columns(line, first_value + value_width * index + digits_width, 1));
-    return indicator && *indicator & 1;
+/// Bits: lock lost since the epoch before, half a cycle in doubt.
+int loss_of_lock_at(std::string_view line, std::size_t index) {
+    return whole(columns(line, first_value + value_width * index + digits_width, 1)).value_or(0);
 }
 
-void put(Signal& signal, char kind, double value, bool slipped) {
+void put(Signal& signal, char kind, double value, int loss_of_lock) {
     switch (kind) {
     case 'C':
         signal.range_m = value;
         break;
     case 'L':
         signal.carrier_cycles = value;
-        signal.slipped = slipped;
+        signal.slipped = loss_of_lock & 1;
+        signal.half_cycle = loss_of_lock & 2;
         break;
     case 'D':
         signal.doppler_hz = value;
@@ -59,7 +60,7 @@ std::vector<Signal> signals_of(std::string_view line, const std::vector<std::str
         const std::string_view code = std::string_view(types[i]).substr(1);
         auto signal = std::find_if(signals.begin(), signals.end(), [&](const Signal& s) { return s.code == code; });
         if (signal == signals.end()) signal = signals.insert(signals.end(), Signal{.code = code});
-        put(*signal, types[i][0], *value, lost_lock_at(line, i));
+        put(*signal, types[i][0], *value, loss_of_lock_at(line, i));
     }
     return signals;
 }

@@ -11,7 +11,8 @@ namespace locus::gnss::rinex {
 struct Signal {
     std::string_view code; ///< band and attribute: "1C"
     std::optional<double> range_m{}, carrier_cycles{}, doppler_hz{}, strength_dbhz{};
-    bool slipped = false; ///< the carrier, since the epoch before
+    bool slipped = false;    ///< the carrier, since the epoch before
+    bool half_cycle = false; ///< it may be half a cycle off (RINEX 3.05, table A2)
 };
 
 /// In the order of `types` (codes of three letters: what is measured, band, attribute), which outlive the result.

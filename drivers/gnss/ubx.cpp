@@ -3,6 +3,7 @@
 
 #include "drivers/frame_decoder.h"
 #include "drivers/gnss/epoch_clock.h"
+#include "drivers/gnss/half_cycles.h"
 #include "drivers/gnss/ubx_messages.h"
 
 #include <algorithm>
@@ -95,12 +96,14 @@ class Ubx : public FrameDecoder<ubx::Format> {
     void reset() override {
         FrameDecoder::reset();
         clock_.reset();
+        half_cycles_.forget();
     }
 
   private:
     Address tag_;
     bool use_receiver_time_;
     EpochClock clock_{EpochClock::week_ns};
+    HalfCycles half_cycles_;
 
     void frame(const Frame& frame, MeasurementSink& sink) override {
         const wire::Bytes payload = payload_of(frame.bytes);
@@ -151,10 +154,15 @@ class Ubx : public FrameDecoder<ubx::Format> {
             const RawSignal signal = parse_raw_signal(payload_of(frame.bytes), i);
             if (!signal.pseudorange_valid()) continue;
             if (possible(signal))
-                sink.accept(time, raw_of(epoch, signal, tag_));
+                sink.accept(time, with_lock(raw_of(epoch, signal, tag_), signal));
             else
                 sink.refuse(Refusal::out_of_range);
         }
+    }
+
+    GnssRaw with_lock(GnssRaw raw, const RawSignal& signal) {
+        if (signal.carrier_valid() && !half_cycles_.settled(raw, signal.half_cycle_known())) raw.lock_s = 0;
+        return raw;
     }
 
     void give(const Subframe& subframe, const Frame& frame, MeasurementSink& sink) const {

@@ -86,6 +86,7 @@ struct RawSignal {
     bool operator==(const RawSignal&) const = default;
     bool pseudorange_valid() const { return tracking & 1; }
     bool carrier_valid() const { return tracking & 2; }
+    bool half_cycle_known() const { return tracking & 4; }
 };
 
 /// RXM-SFRBX: words of one subframe, page or string that a satellite broadcasts.

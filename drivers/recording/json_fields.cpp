@@ -13,7 +13,8 @@ using Shape = JsonField::Shape;
 
 class FieldCollector : public nlohmann::json_sax<json> {
   public:
-    std::vector<JsonField> fields;
+    explicit FieldCollector(JsonFields& into) : into_(into) {}
+
     std::string error = "the line is not one JSON object";
 
     bool null() override { return value(Shape::other, {}); }
@@ -24,23 +25,24 @@ class FieldCollector : public nlohmann::json_sax<json> {
     bool string(std::string& text) override { return value(Shape::text, text); }
     bool binary(json::binary_t&) override { return false; }
     bool start_object(std::size_t) override {
-        if (depth_ > 0) fields.back().shape = Shape::other;
+        if (depth_ > 0) into_.fields.back().shape = Shape::other;
         return ++depth_ < depth_limit;
     }
     bool end_object() override { return leave(); }
     bool start_array(std::size_t) override {
         if (depth_ == 0) return false;
-        fields.back().shape = depth_ == 1 ? Shape::list : Shape::other;
+        into_.fields.back().shape = depth_ == 1 ? Shape::list : Shape::other;
         return ++depth_ < depth_limit;
     }
     bool end_array() override { return leave(); }
 
     bool key(std::string& name) override {
         if (depth_ > 1) return true; // inside a value that is refused as a whole
-        if (std::any_of(fields.begin(), fields.end(), [&](const JsonField& field) { return field.name == name; }))
+        const auto is_same = [&](const JsonField& field) { return field.name == name; };
+        if (std::any_of(into_.fields.begin(), into_.fields.end(), is_same))
             return refuse("\"" + name + "\" is there twice");
-        if (fields.size() == field_limit) return refuse("the line has too many fields");
-        fields.push_back({name, Shape::other, {}});
+        if (into_.fields.size() == field_limit) return refuse("the line has too many fields");
+        into_.fields.push_back({into_.owned.emplace_front(name), Shape::other, into_.values.size()});
         return true;
     }
 
@@ -52,6 +54,7 @@ class FieldCollector : public nlohmann::json_sax<json> {
   private:
     static constexpr int depth_limit = 16;
     static constexpr std::size_t field_limit = 64; // no kind has half as many; keeps the search for doubles short
+    JsonFields& into_;
     int depth_ = 0;
 
     bool refuse(std::string why) {
@@ -66,23 +69,25 @@ class FieldCollector : public nlohmann::json_sax<json> {
 
     bool value(Shape shape, std::string text) {
         if (depth_ == 0) return false;
-        JsonField& field = fields.back();
+        JsonField& field = into_.fields.back();
         if (depth_ == 1)
             field.shape = shape;
         else if (shape != Shape::number)
             field.shape = Shape::other;
-        if (depth_ == 1 || field.shape == Shape::list) field.values.push_back(std::move(text));
+        if (depth_ > 1 && field.shape != Shape::list) return true;
+        into_.values.push_back(into_.owned.emplace_front(std::move(text)));
+        ++field.count;
         return true;
     }
 };
 
 } // namespace
 
-std::optional<std::vector<JsonField>> parse_json_fields(std::string_view line, std::string& error) {
-    FieldCollector collector;
-    if (json::sax_parse(line, &collector)) return std::move(collector.fields);
+bool parse_json_fields(std::string_view line, JsonFields& into, std::string& error) {
+    FieldCollector collector(into);
+    if (json::sax_parse(line, &collector)) return true;
     error = std::move(collector.error);
-    return std::nullopt;
+    return false;
 }
 
 } // namespace locus

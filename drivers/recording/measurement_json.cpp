@@ -75,7 +75,7 @@ class Writer {
 /// Takes fields by name; the first thing that is wrong stays in `error`, what follows is not looked at.
 class Reader {
   public:
-    explicit Reader(std::vector<JsonField>& fields) : fields_(fields) {}
+    explicit Reader(JsonFields& line) : line_(line) {}
     std::string error;
 
     template <class T>
@@ -88,7 +88,7 @@ class Reader {
     }
 
     void nothing_left() {
-        for (const JsonField& field : fields_)
+        for (const JsonField& field : line_.fields)
             if (!field.taken) fail(field.name, "is not a field of this class");
     }
 
@@ -99,16 +99,31 @@ class Reader {
 
     template <class T>
     bool take(std::string_view name, T& value) {
-        const auto field =
-            std::find_if(fields_.begin(), fields_.end(), [&](const JsonField& f) { return f.name == name; });
-        if (field == fields_.end()) return false;
+        JsonField* const field = find(name);
+        if (field == nullptr) return false;
         field->taken = true;
         read(*field, value);
         return true;
     }
 
+    /// Fields mostly come in the order in which they are asked for.
+    JsonField* find(std::string_view name) {
+        std::vector<JsonField>& fields = line_.fields;
+        const auto expected = fields.begin() + static_cast<std::ptrdiff_t>(expected_);
+        const auto has_name = [&](const JsonField& field) { return field.name == name; };
+        auto found = std::find_if(expected, fields.end(), has_name);
+        if (found == fields.end()) {
+            found = std::find_if(fields.begin(), expected, has_name);
+            if (found == expected) return nullptr;
+        }
+        expected_ = static_cast<std::size_t>(found - fields.begin()) + 1;
+        return &*found;
+    }
+
+    std::string_view one(const JsonField& field) const { return line_.of(field).front(); }
+
     template <class Number>
-    static bool parse(const std::string& text, Number& number) {
+    static bool parse(std::string_view text, Number& number) {
         const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (status != std::errc{} || end != text.data() + text.size()) return false;
         if constexpr (std::is_floating_point_v<Number>) return std::isfinite(number);
@@ -118,13 +133,13 @@ class Reader {
     template <class Number>
         requires std::is_floating_point_v<Number>
     void read(const JsonField& field, Number& number) {
-        if (field.shape != JsonField::Shape::number || !parse(field.values.front(), number))
+        if (field.shape != JsonField::Shape::number || !parse(one(field), number))
             fail(field.name, "must be a finite number");
     }
     template <class Number>
         requires std::is_integral_v<Number>
     void read(const JsonField& field, Number& number) {
-        if (field.shape == JsonField::Shape::number && parse(field.values.front(), number)) return;
+        if (field.shape == JsonField::Shape::number && parse(one(field), number)) return;
         fail(field.name, "must be a whole number from 0 to " + std::to_string(std::numeric_limits<Number>::max()));
     }
     void read(const JsonField& field, Address& value) {
@@ -134,13 +149,12 @@ class Reader {
     }
     void read(const JsonField& field, std::string& text) {
         if (field.shape == JsonField::Shape::text)
-            text = field.values.front();
+            text = one(field);
         else
             fail(field.name, "must be a text");
     }
     void read(const JsonField& field, Timestamp& time) {
-        const auto parsed =
-            field.shape == JsonField::Shape::number ? parse_seconds(field.values.front()) : std::nullopt;
+        const auto parsed = field.shape == JsonField::Shape::number ? parse_seconds(one(field)) : std::nullopt;
         if (parsed)
             time = *parsed;
         else
@@ -148,9 +162,8 @@ class Reader {
     }
     void read(const JsonField& field, LineOfSight& value) {
         const auto& names = line_of_sight_names;
-        const auto name = field.shape == JsonField::Shape::text
-                              ? std::find(names.begin(), names.end(), field.values.front())
-                              : names.end();
+        const auto name =
+            field.shape == JsonField::Shape::text ? std::find(names.begin(), names.end(), one(field)) : names.end();
         if (name == names.end())
             fail(field.name, R"(must be "clear", "blocked" or "unknown")");
         else
@@ -158,13 +171,15 @@ class Reader {
     }
     template <class T, std::size_t Size>
     void read(const JsonField& field, std::array<T, Size>& values) {
-        bool good = field.shape == JsonField::Shape::list && field.values.size() == Size;
-        for (std::size_t i = 0; good && i < Size; ++i) good = parse(field.values[i], values[i]);
+        const auto texts = line_.of(field);
+        bool good = field.shape == JsonField::Shape::list && texts.size() == Size;
+        for (std::size_t i = 0; good && i < Size; ++i) good = parse(texts[i], values[i]);
         const std::string_view numbers = std::is_integral_v<T> ? " whole numbers" : " finite numbers";
         if (!good) fail(field.name, "must be a list of " + std::to_string(Size).append(numbers));
     }
 
-    std::vector<JsonField>& fields_;
+    JsonFields& line_;
+    std::size_t expected_ = 0;
 };
 
 template <std::size_t Kind = 0>
@@ -191,10 +206,10 @@ std::string to_json_line(const Measurement& measurement) {
     return line;
 }
 
-std::optional<Measurement> from_json_line(std::string_view line, std::string& error) {
-    auto fields = parse_json_fields(line, error);
-    if (!fields) return std::nullopt;
-    Reader reader(*fields);
+namespace {
+
+std::optional<Measurement> measurement_of(JsonFields& fields, std::string& error) {
+    Reader reader(fields);
     Measurement measurement;
     std::string name;
     reader.must("t", measurement.time);
@@ -210,6 +225,23 @@ std::optional<Measurement> from_json_line(std::string_view line, std::string& er
     if (reader.error.empty()) return measurement;
     error = std::move(reader.error);
     return std::nullopt;
+}
+
+} // namespace
+
+/// Twice where it has to be: what the quick way does not take as good, the slow one judges.
+std::optional<Measurement> from_json_line(std::string_view line, std::string& error) {
+    constexpr std::size_t usual_fields = 24, usual_values = 40;
+    JsonFields plain;
+    plain.fields.reserve(usual_fields);
+    plain.values.reserve(usual_values);
+    if (plain_json_fields(line, plain)) {
+        std::string told_again_below;
+        if (const auto measurement = measurement_of(plain, told_again_below)) return measurement;
+    }
+    JsonFields fields;
+    if (!parse_json_fields(line, fields, error)) return std::nullopt;
+    return measurement_of(fields, error);
 }
 
 } // namespace locus

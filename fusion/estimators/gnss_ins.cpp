@@ -30,8 +30,9 @@ std::array<filter::RobustGain, sizeof...(i)> gains(double scale, std::index_sequ
 
 GnssIns::GnssIns(const Site& site, const GnssInsSettings& settings)
     : site_(&site), observations_(std::make_shared<const GnssInsObservations>(site, settings)),
-      gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)), track_(observations_->motion_model()),
-      robust_(gains(settings.robust_scale, std::make_index_sequence<aids>())) {}
+      gate_in_sigma_(filter::gate_in_sigma(settings.gate_false_alarm)),
+      consistency_quantile_(filter::gate_in_sigma(std::min(1.0, 2 * settings.gate_false_alarm))),
+      track_(observations_->motion_model()), robust_(gains(settings.robust_scale, std::make_index_sequence<aids>())) {}
 
 // NOLINTBEGIN(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
 Verdict GnssIns::update(const Measurement& measurement) noexcept {
@@ -44,7 +45,10 @@ Verdict GnssIns::update(const Measurement& measurement) noexcept {
 // NOLINTEND(bugprone-exception-escape)
 
 void GnssIns::move_to(Timestamp time) noexcept {
-    if (started_) track_.predict(to_s(time - time_));
+    if (started_ && time > time_) {
+        finish_epoch();
+        track_.predict(to_s(time - time_));
+    }
     time_ = time;
 }
 
@@ -52,6 +56,7 @@ void GnssIns::move_to(Timestamp time) noexcept {
 
 Verdict GnssIns::start(const GnssInsStart& start, Timestamp time) noexcept {
     if (started_) ++reset_count_;
+    carriers_.forget();
     track_.start(start);
     time_ = used_time_ = time;
     refused_share_ = 0;
@@ -150,7 +155,15 @@ Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate)
 
 // ---- pose
 
+/// With the carriers that wait for the end of their epoch, which is over by then.
 Estimate GnssIns::predict(Timestamp time) const noexcept {
+    if (time <= time_ || !carriers_.is_waiting()) return prospect(time);
+    GnssIns then = *this;
+    then.move_to(time);
+    return then.prospect(time);
+}
+
+Estimate GnssIns::prospect(Timestamp time) const noexcept {
     Estimate estimate;
     estimate.time = time;
     estimate.reset_count = reset_count_;

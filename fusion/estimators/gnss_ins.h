@@ -4,6 +4,7 @@
 #pragma once
 
 #include "fusion/estimators/estimator.h"
+#include "fusion/estimators/gnss_ins_carriers.h"
 #include "fusion/estimators/gnss_ins_observations.h"
 #include "fusion/estimators/gnss_start.h"
 #include "fusion/filter/adaptive_noise.h"
@@ -41,6 +42,7 @@ class GnssIns final : public Estimator {
         standing_rate,
         pressure,
         range,
+        carrier,
         count_
     };
     /// Share of refused observations from which on the filter may be lost.
@@ -61,6 +63,13 @@ class GnssIns final : public Estimator {
     Exclusion refusal(const SatelliteRange& range) const noexcept;
     Verdict take_rate(const SatelliteRange& range, filter::Gate& gate) noexcept;
     bool clock_jumped(const SatelliteRange& range, const GnssInsScalar& code) noexcept;
+    CarrierUse hear_carrier(const SatelliteRange& range, Timestamp time) noexcept;
+    using CarrierEquations = std::array<gnss::CarrierEquation, GnssInsCarriers::room>;
+    using CarrierOwners = std::array<gnss::CarrierSight*, GnssInsCarriers::room>;
+    void finish_epoch() noexcept;
+    void use_carriers() noexcept;
+    std::size_t changes(CarrierEquations& equations, CarrierOwners& whose) noexcept;
+    bool take_change(const gnss::CarrierSight& now) noexcept;
     Verdict take_fix(const GnssFix& fix) noexcept;
     bool height_is_off(const GnssFix& fix) noexcept;
     void stand() noexcept;
@@ -74,6 +83,7 @@ class GnssIns final : public Estimator {
     /// `memory`: observations of this kind over which the share of refused ones is taken.
     void note(const Verdict& verdict, Timestamp time, double memory) noexcept;
     void start_again_if_lost(Timestamp time) noexcept;
+    Estimate prospect(Timestamp time) const noexcept;
     void report(const GnssInsTrack& track, Estimate& estimate) const noexcept;
 
     const GnssInsSettings& settings() const noexcept { return observations_->settings(); }
@@ -81,9 +91,10 @@ class GnssIns final : public Estimator {
 
     const Site* site_;
     std::shared_ptr<const GnssInsObservations> observations_; ///< shared by all copies: it never changes
-    double gate_in_sigma_;
+    double gate_in_sigma_, consistency_quantile_;
     GnssInsTrack track_;
     GnssStart start_;
+    GnssInsCarriers carriers_;
     std::array<filter::RobustGain, aids> robust_;
     std::array<filter::AdaptiveNoise, aids> noise_{};
     std::array<filter::Gate, 512> code_gates_{}, rate_gates_{}; ///< by satellite

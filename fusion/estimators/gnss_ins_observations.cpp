@@ -38,6 +38,7 @@ GnssInsMotionModel GnssInsObservations::motion_model() const noexcept {
                  s.angular_rate_bias_walk_radps_rts};
     model.acceleration_bias_sigma_mps2 = s.acceleration_bias_sigma_mps2;
     model.angular_rate_bias_sigma_radps = s.angular_rate_bias_sigma_radps;
+    model.scale_sigma = s.estimate_scale ? s.scale_sigma : 0;
     model.unaided_acceleration_mps2_rthz = s.unaided_acceleration_mps2_rthz;
     model.clock_phase_m_rts = s.clock_phase_m_rts;
     model.clock_drift_mps_rts = s.clock_drift_mps_rts;
@@ -63,6 +64,9 @@ double GnssInsObservations::code_sigma_m(const SatelliteRange& range, double ele
 }
 double GnssInsObservations::rate_sigma_mps(const SatelliteRange& range, double elevation_sine) const noexcept {
     return stated_or(range.sigma_rate_mps, settings_.rate_sigma_mps * weakness(range) / elevation_sine);
+}
+double GnssInsObservations::carrier_sigma_m(const SatelliteRange& range, double elevation_sine) const noexcept {
+    return settings_.carrier_sigma_m * weakness(range) / elevation_sine;
 }
 double GnssInsObservations::satellite_error_sigma_m(double elevation_sine) const noexcept {
     return settings_.satellite_error_sigma_m / elevation_sine;

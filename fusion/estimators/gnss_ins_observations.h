@@ -5,6 +5,7 @@
 #include "fusion/estimators/gnss_ins_settings.h"
 #include "fusion/estimators/gnss_ins_track.h"
 #include "fusion/geometry/earth.h"
+#include "fusion/gnss/carrier_change.h"
 #include "fusion/site.h"
 
 #include <optional>
@@ -35,6 +36,7 @@ class GnssInsObservations {
     /// A sigma that the device states is taken as it is.
     double code_sigma_m(const SatelliteRange& range, double elevation_sine) const noexcept;
     double rate_sigma_mps(const SatelliteRange& range, double elevation_sine) const noexcept;
+    double carrier_sigma_m(const SatelliteRange& range, double elevation_sine) const noexcept;
     double satellite_error_sigma_m(double elevation_sine) const noexcept;
 
     // Errors that are new get a place in the state, hence the tracks that are not const.
@@ -42,6 +44,12 @@ class GnssInsObservations {
     /// Groves eq. 14.121-14.127, with the lever arm.
     GnssInsScalar pseudorange(GnssInsTrack& track, const SatelliteRange& range) const noexcept;
     GnssInsScalar range_rate(const GnssInsTrack& track, const SatelliteRange& range) const noexcept;
+    /// By how much the carrier changed since the place was held that the track holds; Groves section 14.3.2 has it as
+    /// the delta range, here of two times that are both states. The noise of the phases counts anew in each change.
+    GnssInsScalar carrier_change(const GnssInsTrack& track, const gnss::CarrierSight& before,
+                                 const gnss::CarrierSight& now, double dt_s) const noexcept;
+    /// What is kept of a satellite's carrier, seen from the track.
+    gnss::CarrierSight carrier(const GnssInsTrack& track, const SatelliteRange& range) const noexcept;
     /// East, north or up. Groves eq. 14.102-14.104.
     GnssInsScalar fix_position(GnssInsTrack& track, const GnssFix& fix, int axis) const noexcept;
     GnssInsScalar fix_velocity(const GnssInsTrack& track, const GnssFix& fix, int axis) const noexcept;

@@ -39,9 +39,10 @@ Verdict GnssIns::take(const SatelliteRange& range, Timestamp time) noexcept {
     move_to(time);
     const GnssInsScalar code = observations_->pseudorange(track_, range);
     if (clock_jumped(range, code)) return {Exclusion::clock_jumped};
-    const Verdict verdict = weigh(Aid::code, code, code_gates_[gate_of(range)]);
+    Verdict verdict = weigh(Aid::code, code, code_gates_[gate_of(range)]);
     const Verdict rate = take_rate(range, rate_gates_[gate_of(range)]);
     note(verdict.reason == Exclusion::none ? verdict : rate, time, satellite_memory);
+    verdict.carrier = hear_carrier(range, time);
     start_again_if_lost(time);
     return verdict;
 }
@@ -54,6 +55,7 @@ Verdict GnssIns::take_rate(const SatelliteRange& range, filter::Gate& gate) noex
 /// One satellite that is off by kilometres is wrong; two in a row that are off by the same are right.
 bool GnssIns::clock_jumped(const SatelliteRange& range, const GnssInsScalar& code) noexcept {
     if (std::abs(code.innovation) < least_clock_jump_m) return false;
+    carriers_.forget();
     const bool confirmed =
         range.satellite != clock_jump_by_ && std::abs(code.innovation - clock_jump_m_) < jumps_agree_m;
     clock_jump_m_ = code.innovation;

@@ -2,11 +2,15 @@
 // - inertial sensor: industrial MEMS on a running engine. Data sheets (ADIS16470, BMI088, Epson G370) say 0.0004 to
 //   0.002 m/s^2/sqrt(Hz) and 2e-5 to 2.5e-4 rad/s/sqrt(Hz); an idling car showed 0.004 and 1.4e-4 at a standstill,
 //   and driving adds a few times that. Biases over temperature 30 mg and 0.6 deg/s; they walk by a tenth of that in an
-//   hour.
+//   hour. Scales: data sheets of MEMS units allow from 0.5 to 3 % (MPU-6000: 3 %).
 // - satellites: code of a multi-band receiver 0.3 m at the zenith and Doppler 0.05 m/s (u-blox F9P data sheet: 1.5 m
 //   CEP, 0.05 m/s), divided by the sine of the elevation and times 10^((45 dBHz - C/N0) / 20), as noise in a
 //   correlator goes. What the atmosphere and reflections leave, 1.5 m that stays for a minute, is the user range error
 //   of single-frequency code (GPS SPS performance standard: 0.6-2 m, and urban code multipath).
+// - carrier: noise and reflections 3 mm at the zenith (rtklib's manual 2.4.2, E.6.24: a hundredth of the code's),
+// divided
+//   like those. What orbit, clock and air drift from one epoch to the next: 3 mm/s (GPS SPS performance standard 2020,
+//   table 3.4-2: user range rate error 6 mm/s, 95 %).
 // - receiver clock: TCXO (Groves 2013, section 9.4.2: 0.04 m^2/s^3).
 // - wheels: a speed that may be off by a twentieth (tyres); side slip and the road's unevenness 0.2 m/s.
 // - barometer: 1 hPa of weather in an hour is 8 m; gusts and vents 1 m.
@@ -30,12 +34,17 @@ struct GnssInsSettings {
     double acceleration_bias_walk_mps2_rts = 5e-4;
     double angular_rate_bias_sigma_radps = 0.01;
     double angular_rate_bias_walk_radps_rts = 2e-5;
+    bool estimate_scale = false;
+    double scale_sigma = 0.01;
     double unaided_acceleration_mps2_rthz = 2;
     double align_speed_mps = 4;
     double align_heading_sigma_deg = 5;
 
     double code_sigma_m = 0.3;
     double rate_sigma_mps = 0.05;
+    bool use_carrier = true;
+    double carrier_sigma_m = 0.003;
+    double carrier_drift_sigma_mps = 0.003;
     double satellite_error_sigma_m = 1.5;
     double satellite_error_time_s = 60;
     double least_elevation_deg = 10;
@@ -100,6 +109,9 @@ inline constexpr std::array gnss_ins_options{
                                                             "Bias that the gyroscope may have at the start."),
     option<&GnssInsSettings::angular_rate_bias_walk_radps_rts>("angular_rate_bias_walk_radps_rts", "rad/s/sqrt(s)", 0,
                                                                1, "How much that bias changes with time."),
+    option<&GnssInsSettings::estimate_scale>(
+        "estimate_scale", "Whether the scales of the inertial sensor's six axes are estimated beside its biases."),
+    option<&GnssInsSettings::scale_sigma>("scale_sigma", "", 1e-6, 0.5, "How far from 1 those scales may be."),
     option<&GnssInsSettings::unaided_acceleration_mps2_rthz>(
         "unaided_acceleration_mps2_rthz", "m/s^2/sqrt(Hz)", 0.01, 100,
         "How the vehicle accelerates, as noise, while no aligned inertial sensor tells."),
@@ -112,6 +124,13 @@ inline constexpr std::array gnss_ins_options{
                                            "Noise of a pseudorange at the zenith whose device states none."),
     option<&GnssInsSettings::rate_sigma_mps>("rate_sigma_mps", "m/s", 0.001, 100,
                                              "Noise of a range rate at the zenith whose device states none."),
+    option<&GnssInsSettings::use_carrier>(
+        "use_carrier", "Whether the change of a satellite's carrier phase since its epoch before is used."),
+    option<&GnssInsSettings::carrier_sigma_m>("carrier_sigma_m", "m", 1e-4, 1,
+                                              "Noise of a carrier phase at the zenith, reflections included."),
+    option<&GnssInsSettings::carrier_drift_sigma_mps>(
+        "carrier_drift_sigma_mps", "m/s", 0, 1,
+        "By which orbit, satellite's clock and air change between two epochs, at the zenith."),
     option<&GnssInsSettings::satellite_error_sigma_m>(
         "satellite_error_sigma_m", "m", 0, 100,
         "Error of a satellite's pseudorange that stays for a while (atmosphere, orbit, reflections), at the zenith."),

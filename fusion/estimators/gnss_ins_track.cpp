@@ -34,6 +34,7 @@ void GnssInsTrack::start(const GnssInsStart& start) noexcept {
     clear(gnss_ins_core);
     state.segment<6>(inertial::accelerometer_bias_at) = biases;
     covariance.block<6, 6>(inertial::accelerometer_bias_at, inertial::accelerometer_bias_at) = known;
+    ask_for_scales();
     inertial_ = false;
     set_motion({start.position_ecef_m, start.velocity_ecef_mps, Eigen::Quaterniond::Identity()});
     for (int i = 0; i < 3; ++i)
@@ -49,11 +50,6 @@ void GnssInsTrack::start(const GnssInsStart& start) noexcept {
 
 // ---- motion
 
-inertial::Rates GnssInsTrack::unbiased() const noexcept {
-    return {imu_.rates().specific_force_mps2 - state.segment<3>(inertial::accelerometer_bias_at),
-            imu_.rates().angular_rate_radps - state.segment<3>(inertial::gyroscope_bias_at)};
-}
-
 void GnssInsTrack::set_motion(const inertial::EcefMotion& motion) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
         state(place(axis, 0)) = motion.position_ecef_m(axis);
@@ -68,10 +64,13 @@ void GnssInsTrack::predict(double dt_s) noexcept {
     if (inertial_ && since_imu_s_ > inertial::HeldImu::max_gap_s) fall_back();
     inertial::EcefMotion now = motion();
     if (inertial_) {
-        const inertial::ErrorTransition transition = inertial::error_transition(now, unbiased(), dt_s);
-        inertial::move(now, unbiased(), dt_s);
+        const inertial::Rates rates = unbiased();
+        const inertial::ErrorTransition transition = inertial::error_transition(now, rates, dt_s);
+        inertial::move(now, rates, dt_s);
         set_motion(now);
+        put_scales_into_biases(rates, 1);
         move_core(transition, inertial::error_noise(model_.imu, dt_s), dt_s);
+        put_scales_into_biases(rates, -1);
         return;
     }
     inertial::ErrorTransition transition = inertial::ErrorTransition::Identity();
@@ -135,6 +134,7 @@ void GnssInsTrack::sense(const ImuSample& sample, Timestamp time, bool started) 
     turned.specific_force_mps2 = {force.x(), force.y(), force.z()};
     turned.angular_rate_radps = {rate.x(), rate.y(), rate.z()};
     const auto lag = imu_.take(turned, time);
+    if (started) ask_for_scales();
     since_imu_s_ = 0;
     sensed_ = true;
     if (!lag) {

@@ -19,6 +19,7 @@ struct GnssInsMotionModel {
     inertial::ImuNoise imu;
     double acceleration_bias_sigma_mps2 = 0;
     double angular_rate_bias_sigma_radps = 0;
+    double scale_sigma = 0; ///< of each axis of both sensors; 0: the scales are right
     double unaided_acceleration_mps2_rthz = 0;
     double clock_phase_m_rts = 0;
     double clock_drift_mps_rts = 0;
@@ -38,7 +39,7 @@ struct GnssInsStart {
     double clock_drift_mps = 0, clock_drift_sigma_mps = 0;
 };
 
-class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
+class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 40> {
   public:
     explicit GnssInsTrack(GnssInsMotionModel model) noexcept;
 
@@ -54,8 +55,16 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
     void move_by(const Vector& error) noexcept;
     /// Makes the attitude known at once: the forward axis along `course_ecef`, tilt as levelled.
     void begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept;
+    /// Keeps the place of a point and the clock as states of their own, for what is observed of both now and later.
+    void hold_place(const Eigen::Vector3d& lever_body_m) noexcept;
+    /// Where x, y, z and clock then stand in the state; the first is -1 when nothing is held.
+    std::array<int, 4> held_place() const noexcept;
     /// A receiver set its clock: by `jump_m`, not surer than `sigma_m`.
     void shift_clock(double jump_m, double sigma_m) noexcept;
+
+    /// Where the errors of the accelerometer's three scales stand, and behind them those of the gyroscope's; -1: they
+    /// are taken to be right.
+    int scales_at() const noexcept { return model_.scale_sigma > 0 && size() >= first_scale + 6 ? first_scale : -1; }
 
     bool is_inertial() const noexcept { return inertial_; }
     bool is_at_rest() const noexcept { return sensed_ && rest_.is_at_rest(); }
@@ -76,8 +85,11 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 28> {
 
   private:
     using Core = Eigen::Matrix<double, gnss_ins_core, gnss_ins_core>;
+    static constexpr int first_scale = gnss_ins_core; ///< the first wanderers of all
     static Eigen::Vector3d zero() noexcept { return Eigen::Vector3d::Zero(); }
     inertial::Rates unbiased() const noexcept;
+    void ask_for_scales() noexcept;
+    void put_scales_into_biases(const inertial::Rates& at, double sign) noexcept;
     inertial::EcefMotion motion() const noexcept { return {position_m(), velocity_ecef_mps(), body_to_ecef_}; }
     void set_motion(const inertial::EcefMotion& motion) noexcept;
     void move_core(const inertial::ErrorTransition& transition, const inertial::ErrorTransition& noise,

@@ -1,6 +1,11 @@
 // Where the points of the vehicle are that observations are made at (antenna, tag, axle), and how they hang on the
 // state.
+#include "fusion/estimators/gnss_ins_errors.h"
 #include "fusion/estimators/gnss_ins_track.h"
+#include "fusion/option.h"
+
+#include <algorithm>
+#include <array>
 
 namespace locus {
 
@@ -36,6 +41,28 @@ void GnssInsTrack::spread_velocity(const Eigen::Vector3d& gradient, const Eigen:
         jacobian(place(axis, 2)) += by_attitude(axis);
         jacobian(inertial::gyroscope_bias_at + axis) += by_bias(axis);
     }
+}
+
+// ---- a place that is held
+
+void GnssInsTrack::hold_place(const Eigen::Vector3d& lever_body_m) noexcept {
+    const filter::WanderModel stays{0, no_limit};
+    const Eigen::Vector3d place_m = point_ecef_m(lever_body_m);
+    std::array<int, 4> at{};
+    for (int i = 0; i < 4; ++i) at[static_cast<std::size_t>(i)] = wanderer(held_place_state - i, stays);
+    for (int axis = 0; axis < 3; ++axis) {
+        Vector jacobian = Vector::Zero(size());
+        spread_position(Eigen::Vector3d::Unit(axis), lever_body_m, jacobian);
+        become_copy(at[static_cast<std::size_t>(axis)], place_m(axis), jacobian);
+    }
+    become_copy(at[3], state(clock_offset_at), Vector::Unit(size(), clock_offset_at));
+}
+
+std::array<int, 4> GnssInsTrack::held_place() const noexcept {
+    std::array<int, 4> at{};
+    for (int i = 0; i < 4; ++i) at[static_cast<std::size_t>(i)] = known_wanderer(held_place_state - i);
+    if (std::ranges::min(at) < 0) at[0] = -1;
+    return at;
 }
 
 } // namespace locus

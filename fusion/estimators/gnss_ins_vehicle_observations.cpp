@@ -62,6 +62,8 @@ GnssInsScalar GnssInsObservations::wheel_speed(GnssInsTrack& track, const WheelS
 GnssInsScalar GnssInsObservations::yaw_rate(const GnssInsTrack& track, const WheelSpeed& wheel) const noexcept {
     GnssInsScalar scalar{blank_row(track)};
     scalar.jacobian(inertial::gyroscope_bias_at + 2) = -1;
+    if (const int scales = track.scales_at(); scales >= 0)
+        scalar.jacobian(scales + 5) = -track.angular_rate_radps().z();
     scalar.innovation = double{wheel.yaw_rate_radps} - track.angular_rate_radps().z();
     scalar.variance = own_square(settings_.yaw_rate_sigma_radps);
     return scalar;

@@ -40,6 +40,12 @@ class WanderingState {
     /// no room takes the place of the one that was asked for longest ago.
     int wanderer(std::int32_t key, const WanderModel& model) noexcept;
 
+    /// The wanderer called `key`, which there is or none: -1.
+    int known_wanderer(std::int32_t key) const noexcept;
+    /// It becomes a copy of `value`, a number that the state tells with the gradient `jacobian`: from now on it stays
+    /// what it is and knows how it hangs together with all others (stochastic cloning: Roumeliotis and Burdick 2002).
+    void become_copy(int wanderer, double value, const Vector& jacobian) noexcept;
+
     /// Whether the numbers of both mean the same.
     bool is_laid_out_as(const WanderingState& other) const noexcept {
         const auto known = wanderers_.begin() + (size() - core_);
@@ -134,6 +140,25 @@ int WanderingState<MaxCore, MaxWanderers>::claim() noexcept {
     const auto oldest = std::min_element(wanderers_.begin(), wanderers_.end(),
                                          [](const Wanderer& a, const Wanderer& b) { return a.asked < b.asked; });
     return core_ + static_cast<int>(oldest - wanderers_.begin());
+}
+
+template <int MaxCore, int MaxWanderers>
+int WanderingState<MaxCore, MaxWanderers>::known_wanderer(std::int32_t key) const noexcept {
+    const auto known = wanderers_.begin() + (size() - core_);
+    const auto found = std::find_if(wanderers_.begin(), known, [&](const Wanderer& w) { return w.key == key; });
+    return found == known ? -1 : core_ + static_cast<int>(found - wanderers_.begin());
+}
+
+template <int MaxCore, int MaxWanderers>
+void WanderingState<MaxCore, MaxWanderers>::become_copy(int wanderer, double value, const Vector& jacobian) noexcept {
+    Vector cross = Vector::Zero(size());
+    for (int i = 0; i < size(); ++i)
+        if (jacobian(i) != 0) cross += jacobian(i) * covariance.col(i);
+    const double variance = jacobian.dot(cross);
+    state(wanderer) = value;
+    covariance.col(wanderer) = cross;
+    covariance.row(wanderer) = cross.transpose();
+    covariance(wanderer, wanderer) = variance;
 }
 
 template <int MaxCore, int MaxWanderers>

@@ -1,6 +1,7 @@
 // Every observation of the vehicles' estimator against differences: the state is moved by an error as the filter means
 // it, and the innovation must fall by the jacobian times that error.
 #include "fusion/estimators/gnss_ins_observations.h"
+#include "fusion/geometry/vector.h"
 #include "tests/unit/fusion/jacobian.h"
 #include "tests/unit/fusion/simulated_drive.h"
 
@@ -74,6 +75,11 @@ TEST_P(GnssInsJacobians, OfSatellitesFixesAndRanges) {
         expect_matches(track, [&](auto& t) { return observations.pseudorange(t, satellite); }, 2e-5, "pseudorange");
         expect_matches(track, [&](auto& t) { return observations.range_rate(t, satellite); }, 2e-5, "range rate");
     }
+    track.hold_place(vector(bench.settings.gnss_antenna_body_m));
+    const gnss::CarrierSight before = observations.carrier(track, satellite);
+    track.predict(0.3);
+    expect_matches(
+        track, [&](auto& t) { return observations.carrier_change(t, before, before, 0.3); }, 2e-5, "carrier's change");
     const auto fix = std::get<GnssFix>(bench.drive.fix(1, 0.1).observation);
     for (int axis = 0; axis < 3; ++axis) {
         expect_matches(track, [&](auto& t) { return observations.fix_position(t, fix, axis); }, 1e-5, "fix");

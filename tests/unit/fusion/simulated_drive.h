@@ -10,6 +10,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -25,7 +27,9 @@ inline Site town() {
 struct DriveSettings {
     double force_noise_mps2_rthz = 0.02, rate_noise_radps_rthz = 3e-4;
     double force_bias_mps2 = 0.05, rate_bias_radps = 0.002; ///< sigmas that the biases are drawn with
+    double scale_off = 0;                                   ///< of all six axes of the inertial sensor
     double code_sigma_m = 1, rate_sigma_mps = 0.05;
+    double carrier_sigma_m = 0; ///< 0: there is no carrier
     double clock_phase_m_rts = 0.1, clock_drift_mps_rts = 0.2;
     double imu_hz = 100;
     double still_until_s = 4;
@@ -97,6 +101,8 @@ class SimulatedDrive {
         const double root_hz = std::sqrt(settings_.imu_hz);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto axis = static_cast<Eigen::Index>(i);
+            sample.specific_force_mps2[i] *= 1 + settings_.scale_off;
+            sample.angular_rate_radps[i] *= 1 + settings_.scale_off;
             sample.specific_force_mps2[i] += force_bias_(axis) + settings_.force_noise_mps2_rthz * root_hz * draw();
             sample.angular_rate_radps[i] += rate_bias_(axis) + settings_.rate_noise_radps_rthz * root_hz * draw();
         }
@@ -131,7 +137,17 @@ class SimulatedDrive {
         range.sigma_rate_mps = static_cast<float>(settings_.rate_sigma_mps);
         range.carrier_to_noise_dbhz = 45;
         range.satellite = static_cast<std::uint8_t>(i + 1);
+        if (settings_.carrier_sigma_m > 0) {
+            range.carrier_m = arm.norm() + clock_offset_m_ + ambiguity_m_.at(i) + settings_.carrier_sigma_m * draw();
+            range.lock_s = static_cast<float>(std::min(64.5, 20 + t_ - locked_s_.at(i))); // u-blox counts to 64.5
+        }
         return stamped(range);
+    }
+    /// The carrier slips, which its receiver does not notice; or does.
+    void slip(std::size_t i, double by_m) { ambiguity_m_.at(i) += by_m; }
+    void lose_lock(std::size_t i) {
+        slip(i, 1000);
+        locked_s_.at(i) = t_ + 20;
     }
     Measurement fix(double sigma_m, double speed_sigma_mps) {
         const Geodetic place = geodetic(earth_.ecef_m(position_site_));
@@ -180,6 +196,7 @@ class SimulatedDrive {
     Eigen::Vector3d position_site_{0, 0, 0};
     Eigen::Vector3d force_bias_, rate_bias_;
     double clock_offset_m_ = 0, clock_drift_mps_ = 0;
+    std::array<double, 16> ambiguity_m_{}, locked_s_{};
     std::uint32_t sequence_ = 0;
 };
 

@@ -119,11 +119,13 @@ TEST(RinexObservations, LockGoesOnUntilTheFileSaysOtherwise) {
     };
     const auto file =
         read(head + sample(10, ' ') + sample(11, '0') + sample(12, '2') + sample(13, '1') + sample(14, ' ') +
-             sample(15, ' ', 0) + sample(16, ' ') + sample(17, ' ') + sample(18, ' ', 1e8, 1) + sample(19, ' '));
+             sample(15, ' ', 0) + sample(16, ' ') + sample(17, ' ') + sample(18, ' ', 1e8, 1) + sample(19, ' ') +
+             sample(20, '2') + sample(21, '2') + sample(22, ' ') + sample(23, ' '));
     std::vector<float> locks_s;
     for (const auto& raw : file.raws) locks_s.push_back(raw.lock_s);
-    EXPECT_THAT(locks_s, ElementsAre(0, 1, 2, 0, 1, 0, 0, 1, 0, 1))
-        << "slip at 13, no carrier at 15, power failed before 18";
+    EXPECT_THAT(locks_s, ElementsAre(0, 1, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 1))
+        << "half a cycle in doubt at 12, 20 and 21 and settled at 22, slip at 13, no carrier at 15, power failed "
+           "before 18";
 }
 
 TEST(RinexObservations, EventsAreNoEpochs) {

@@ -156,7 +156,7 @@ TEST(Ubx, RefusesPlacesThatAreNotOnEarth) {
     }
 }
 
-constexpr RawSignal good_signal{21431659.961, 112624126.092, 366.01f, 6, 11, 0, 9, 1500, 43, 4, 1, 6, 3, 0};
+constexpr RawSignal good_signal{21431659.961, 112624126.092, 366.01f, 6, 11, 0, 9, 1500, 43, 4, 1, 6, 7, 0};
 
 TEST(Ubx, OfARawSignalOnlyWhatIsValidCounts) {
     std::vector<RawSignal> signals(3, good_signal);
@@ -169,6 +169,22 @@ TEST(Ubx, OfARawSignalOnlyWhatIsValidCounts) {
     EXPECT_EQ(raws[1].carrier_cycles, 112624126.092);
     EXPECT_FLOAT_EQ(raws[1].lock_s, 1.5f);
     EXPECT_EQ(raws[1].glonass_slot, 9);
+}
+
+TEST(Ubx, WhereTheDoubtOfHalfACycleBeginsOrEndsTheLockBeginsAnew) {
+    RawSignal doubtful = good_signal;
+    doubtful.tracking = 3;
+    Bytes bytes;
+    for (const RawSignal& signal : {doubtful, doubtful, good_signal, good_signal, doubtful, good_signal}) {
+        const Bytes one = encode(RawEpoch{10, 2327}, std::array{signal});
+        bytes.insert(bytes.end(), one.begin(), one.end());
+    }
+    std::vector<float> locks_s;
+    for (const GnssRaw& raw : decode(bytes).all<GnssRaw>()) {
+        locks_s.push_back(raw.lock_s);
+        EXPECT_EQ(raw.carrier_cycles, 112624126.092);
+    }
+    EXPECT_EQ(locks_s, (std::vector<float>{1.5F, 1.5F, 0, 1.5F, 0, 0}));
 }
 
 TEST(Ubx, AClockResetBreaksEveryCarrier) {
