@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -289,6 +290,37 @@ TEST(PetsFusion, WithOurOwnDetections) {
         EXPECT_GE(table.ours.settled.right_share(), 0.96);
         EXPECT_GE(better(table.ours, table.ours_heard), 0.15);
     }
+}
+
+/// The same names by the three ways there are, with the looks that our own detections have.
+TEST(PetsFusion, NamesByAssociation) {
+    if (!std::getenv("LOCUS_ALL_FRAMES")) GTEST_SKIP() << "takes a minute: LOCUS_ALL_FRAMES=1 runs it";
+    const auto scene = pets_scene();
+    if (!scene.has_value()) GTEST_SKIP() << "no pets2009 or mot15_sort_det in LOCUS_DATA or ../shared/data";
+    const auto found = own_detections("hog_motion", scene->people.size(), heights_in_video(scene->view));
+    ASSERT_FALSE(found.empty());
+    const auto images = pets_images(*scene, found);
+    double hungarian = 0;
+    for (const auto& [association, looks_weight, near_m] : {std::tuple("hungarian", 0.0, 3.0),
+                                                            {"hungarian", 1.0, 3.0},
+                                                            {"hungarian", 3.0, 3.0},
+                                                            {"matrix", 0.0, 3.0},
+                                                            {"matrix", 0.0, 1.0}}) {
+        PetsOutcome outcome;
+        for (unsigned seed = 1; seed <= 3; ++seed) {
+            EngineSettings settings = engine_with(*scene, in_the_plane<InertialEkfSettings>("inertial_ekf"), 1);
+            settings.vision.association = association;
+            settings.vision.looks_weight = looks_weight;
+            settings.vision.near_m = near_m;
+            outcome.add(
+                PetsRun(*scene, images, settings).run(as_they_come(pets_ranges(*scene, seed, false), images, true)));
+        }
+        std::printf("%s, looks_weight %.0f, near_m %.0f: mean error %.3f m\n", association, looks_weight, near_m,
+                    outcome.errors.mean_m());
+        print_names("", outcome);
+        if (hungarian == 0) hungarian = outcome.settled.right_share();
+    }
+    EXPECT_GE(hungarian, 0.97);
 }
 
 } // namespace
