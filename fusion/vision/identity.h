@@ -26,7 +26,7 @@ struct IdentitySettings {
     double sigma_m = 0.5;  ///< a usual fix of a tag beside a foot point; wider ones prove less
     double forget_s = 5;   ///< somewhat longer than a tracker keeps who is lost
     double keep_s = 0;     ///< tags that are told apart in every window need no memory, and a tracker's swap has none
-    double looks_weight = 0; ///< LOOKS_ORIGIN
+    double looks_weight = 0; ///< nothing gained where tags are known to half a metre (docs/cameras.md)
 };
 
 template <class Settings>

@@ -61,14 +61,15 @@ class CrowdWorld {
                                 0.15 * 0.15 * Eigen::Matrix2d::Identity()};
         seen.position_site_m += Eigen::Vector2d(normal(0.15), normal(0.15));
         vision::Colours look = looks_[person] + static_cast<float>(alike) / colours; // whose sum is one and this
-        for (float& part : look.head(colours)) part *= static_cast<float>(0.8 + 0.4 * uniform());
+        for (float& part : look.head(colours)) part *= static_cast<float>(1 - look_noise + 2 * look_noise * uniform());
         seen.looks = vision::looks_of(look / look.sum());
         return seen;
     }
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
     static constexpr radio::PathLoss tags{-50, 2, 3};
-    double alike = 0; ///< what all wear alike, in shares of what each has for himself
+    double look_noise = 0.2; ///< of each colour's share, from image to image
+    double alike = 0;        ///< what all wear alike, in shares of what each has for himself
     std::vector<Eigen::Vector2d> places;
     SimulatedRadios radios;
 
