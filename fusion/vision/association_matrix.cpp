@@ -37,9 +37,12 @@ std::span<const Named> AssociationMatrix::update(Timestamp time, std::span<const
     }
     named_.clear();
     for (const std::size_t track : seen_) named_.push_back(named(track));
-    for (std::size_t i = 0; i < named_.size(); ++i)
-        if (const auto seen = colours_of(people[i].looks); named_[i].tag.has_value() && seen.has_value())
-            looks_.learn(named_[i].tag.value(), seen.value(), time);
+    for (std::size_t i = 0; i < named_.size(); ++i) {
+        const std::optional<Address>& tag = named_[i].tag;
+        if (!tag.has_value()) continue;
+        const auto seen = colours_of(people[i].looks);
+        if (seen.has_value()) looks_.learn(tag.value(), seen.value(), time);
+    }
     return named_;
 }
 

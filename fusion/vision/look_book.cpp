@@ -27,17 +27,17 @@ LookBook::LookBook(std::size_t cameras, std::size_t max_tags)
       memories_(cameras * max_tags_), shared_(cameras * cameras), usual_(cameras) {}
 
 std::optional<Colours> LookBook::colours(std::size_t camera, Address tag) const noexcept {
-    const Memory* here = known(camera, tag);
-    if (here != nullptr) return here->colours;
-    std::size_t best = 0, tags = least_shared - 1;
+    if (const Memory* own = known(camera, tag); own != nullptr) return own->colours;
+    const std::size_t here = camera;
+    std::size_t best = here, tags = least_shared - 1;
     for (std::size_t other = 0; other < cameras_; ++other)
-        if (shared(camera, other).tags > tags && known(other, tag) != nullptr) {
+        if (shared(here, other).tags > tags && known(other, tag) != nullptr) {
             best = other;
-            tags = shared(camera, other).tags;
+            tags = shared(here, other).tags;
         }
     if (tags < least_shared) return std::nullopt;
     const Memory* there = known(best, tag);
-    const Sum gain = (shared(camera, best).sum + unseen_share) / (shared(best, camera).sum + unseen_share);
+    const Sum gain = (shared(here, best).sum + unseen_share) / (shared(best, here).sum + unseen_share);
     const Colours carried = (there->colours.cast<double>() * gain).cast<float>();
     return carried / carried.sum();
 }
@@ -103,17 +103,17 @@ void LookBook::tell_apart(std::size_t camera, std::size_t tag, const Colours& se
 
 /// Each tag counts once however long it was seen, so the sums follow its look.
 void LookBook::share(std::size_t camera, std::size_t tag, const Colours& before, bool is_new) noexcept {
-    const Colours& now = memory(camera, tag).colours;
+    const std::size_t here = camera;
+    const Colours& now = memory(here, tag).colours;
     for (std::size_t other = 0; other < cameras_; ++other) {
         const Memory& there = memory(other, tag);
-        if (other == camera || !there.is_known()) continue;
-        Shared& here = shared(camera, other);
-        here.sum += now.cast<double>();
-        if (!is_new) here.sum -= before.cast<double>();
+        if (other == here || !there.is_known()) continue;
+        shared(here, other).sum += now.cast<double>();
+        if (!is_new) shared(here, other).sum -= before.cast<double>();
         if (!is_new) continue;
-        shared(other, camera).sum += there.colours.cast<double>();
-        ++here.tags;
-        ++shared(other, camera).tags;
+        shared(other, here).sum += there.colours.cast<double>();
+        ++shared(here, other).tags;
+        ++shared(other, here).tags;
     }
 }
 
