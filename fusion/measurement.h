@@ -1,5 +1,5 @@
 // Measurement: what a decoder says of one sample. Trivially copyable, at most 128 bytes, so it travels in rings.
-// Anything larger (an image, a histogram) stays in a preallocated pool and goes by index.
+// Anything larger (an image) stays in a preallocated pool and goes by index.
 // NaN in a sigma_* or *_dbm field means "the device does not say": the settings' figure is used instead.
 #pragma once
 
@@ -96,6 +96,10 @@ struct ImuSample {
     Vec3f magnetic_field_ut = unknown_vec3f;
 };
 
+/// How a person looks: shares of colours (drivers/camera/appearance.h says which), each as its square root in 255ths.
+/// Whoever reads them scales their squares to the sum one, so no bytes are wrong. All zero: not known.
+using Looks = std::array<std::uint8_t, 24>;
+
 /// Where a camera sees a person touch the floor.
 struct FootPoint {
     Address camera = no_address;
@@ -103,7 +107,7 @@ struct FootPoint {
     Vec2 position_site_m{};
     std::array<float, 3> covariance_m2{}; ///< xx, xy, yy
     float confidence = unknown_f;
-    std::uint32_t appearance_slot = 0; ///< index into the appearance pool
+    Looks looks{};
 };
 
 /// Pose from a visual odometry or SLAM, in its own frame and scale; `segment` changes when tracking restarts.

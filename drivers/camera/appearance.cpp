@@ -1,12 +1,14 @@
 #include "drivers/camera/appearance.h"
 
 #include "drivers/camera/mat.h"
+#include "fusion/vision/colours.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace locus::camera {
 namespace {
@@ -27,6 +29,10 @@ constexpr int least_saturation = 32, least_value = 32; // of 255
 constexpr int hue_range = 180;                         // OpenCV keeps hues in bytes
 constexpr int least_pixels = 8;
 
+constexpr int greys_of_looks = 4;
+constexpr int looks_of_part = hue_bins + greys_of_looks;
+static_assert((body_parts.size() - 1) * looks_of_part == std::tuple_size_v<Looks>);
+
 cv::Rect part_of(const vision::BoxPx& box, const Part& part, const cv::Size& image) {
     const double left = box.left_px + side_share * box.width_px;
     const double top = box.top_px + part.from * box.height_px;
@@ -39,6 +45,11 @@ int bin_of(const cv::Vec3b& hsv) {
     if (hsv[1] < least_saturation || hsv[2] < least_value)
         return hue_bins * saturation_bins + hsv[2] * value_bins / 256;
     return hsv[0] * hue_bins / hue_range * saturation_bins + hsv[1] * saturation_bins / 256;
+}
+
+constexpr int bin_of_looks(int bin) {
+    const int grey = bin - hue_bins * saturation_bins;
+    return grey < 0 ? bin / saturation_bins : hue_bins + grey * greys_of_looks / value_bins;
 }
 
 /// Adds square roots of shares to `to`; a part that is not seen stays zero.
@@ -62,6 +73,18 @@ vision::Appearance appearance(const Picture& picture, const vision::BoxPx& box) 
     if (length == 0) return {};
     for (float& value : look) value = static_cast<float>(value / length);
     return look;
+}
+
+Looks looks(const vision::Appearance& appearance) noexcept {
+    if (appearance.size() != body_parts.size() * bins_of_part) return {};
+    vision::Colours shares = vision::Colours::Zero();
+    for (int part = 1; part < static_cast<int>(body_parts.size()); ++part)
+        for (int bin = 0; bin < bins_of_part; ++bin) {
+            const float root = appearance[static_cast<std::size_t>(part * bins_of_part + bin)];
+            shares((part - 1) * looks_of_part + bin_of_looks(bin)) += root * root;
+        }
+    const float sum = shares.sum();
+    return sum > 0 ? vision::looks_of(shares / sum) : Looks{};
 }
 
 } // namespace locus::camera

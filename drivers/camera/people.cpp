@@ -27,6 +27,7 @@ FootPoint foot_point(const vision::ImageTrack& track, const vision::FloorPoint& 
     foot.covariance_m2 = {static_cast<float>(at.covariance_m2(0, 0)), static_cast<float>(at.covariance_m2(0, 1)),
                           static_cast<float>(at.covariance_m2(1, 1))};
     foot.confidence = std::clamp(track.score, 0.0F, 1.0F);
+    foot.looks = track.looks;
     return foot;
 }
 

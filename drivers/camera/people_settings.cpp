@@ -18,7 +18,10 @@ std::vector<vision::Detection> Sorting::sort(const Picture& picture, std::vector
     std::stable_sort(found.begin(), found.end(),
                      [](const vision::Detection& a, const vision::Detection& b) { return a.score > b.score; });
     if (settings_.looks)
-        for (auto& detection : found) detection.appearance = appearance(picture, detection.box);
+        for (auto& detection : found) {
+            detection.appearance = appearance(picture, detection.box);
+            detection.looks = looks(detection.appearance);
+        }
     return found;
 }
 

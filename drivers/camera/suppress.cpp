@@ -13,7 +13,9 @@ constexpr float same_person_iou = 0.7F;
 vision::BoxPx mean_box(const vision::Detection& kept, const std::vector<vision::Detection>& all) {
     vision::BoxPx sum{0, 0, 0, 0};
     float weights = 0;
-    for (const auto& [box, score, looks] : all) {
+    for (const vision::Detection& one : all) {
+        const vision::BoxPx& box = one.box;
+        const float score = one.score;
         if (!(score > 0) || vision::iou(box, kept.box) < same_person_iou) continue;
         weights += score;
         sum.left_px += score * box.left_px;

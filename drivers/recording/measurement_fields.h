@@ -1,6 +1,7 @@
 // The one table of what each Measurement kind holds: the JSON writer and the reader both walk it, so they cannot
 // disagree. A visitor has must(name, value) for what every sample has, and may(name, value) for what a device need not
-// say (unknown: NaN, LineOfSight::unknown or no_address). Names are those of fusion/measurement.h.
+// say (unknown: NaN, LineOfSight::unknown, no_address or no Looks), and gone(name) for what older recordings have.
+// Names are those of fusion/measurement.h.
 #pragma once
 
 #include "fusion/measurement.h"
@@ -77,7 +78,8 @@ void visit_fields(Visitor& visit, Kind& foot) {
     visit.must("position_site_m", foot.position_site_m);
     visit.must("covariance_m2", foot.covariance_m2);
     visit.may("confidence", foot.confidence);
-    visit.must("appearance_slot", foot.appearance_slot);
+    visit.may("looks", foot.looks);
+    visit.gone("appearance_slot"); // of a pool that never was
 }
 
 template <class Visitor, Of<VisualOdometry> Kind>

@@ -30,10 +30,14 @@ class Writer {
     void may(std::string_view name, Address value) {
         if (value != no_address) must(name, value);
     }
+    void may(std::string_view name, const Looks& value) {
+        if (value != Looks{}) must(name, value);
+    }
     template <class T>
     void may(std::string_view name, const T& value) {
         must(name, value);
     }
+    void gone(std::string_view) {}
 
   private:
     template <class T>
@@ -84,6 +88,10 @@ class Reader {
     }
     template <class T>
     void may(std::string_view name, T& value) {
+        take(name, value);
+    }
+    void gone(std::string_view name) {
+        std::uint32_t value = 0;
         take(name, value);
     }
 
@@ -175,7 +183,8 @@ class Reader {
         bool good = field.shape == JsonField::Shape::list && texts.size() == Size;
         for (std::size_t i = 0; good && i < Size; ++i) good = parse(texts[i], values[i]);
         const std::string_view numbers = std::is_integral_v<T> ? " whole numbers" : " finite numbers";
-        if (!good) fail(field.name, "must be a list of " + std::to_string(Size).append(numbers));
+        const std::string limit = sizeof(T) == 1 ? " from 0 to 255" : "";
+        if (!good) fail(field.name, "must be a list of " + std::to_string(Size).append(numbers).append(limit));
     }
 
     JsonFields& line_;

@@ -2,6 +2,8 @@
 // which looks at pixels, and the tracker, which must be testable on boxes from a file.
 #pragma once
 
+#include "fusion/measurement.h"
+
 #include <vector>
 
 namespace locus::vision {
@@ -26,6 +28,7 @@ struct Detection {
     BoxPx box;
     float score = 1; ///< 0..1: the chance that it is somebody, as far as the detector can tell
     Appearance appearance;
+    Looks looks{}; ///< of the same in few numbers, for who reads foot points
 };
 
 } // namespace locus::vision

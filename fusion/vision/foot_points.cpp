@@ -5,23 +5,37 @@
 namespace locus::vision {
 namespace {
 
-SeenPerson seen(const FootPoint& foot) {
+SeenPerson as_seen(const FootPoint& foot) {
     const auto [xx, xy, yy] = foot.covariance_m2;
-    return {foot.track, {foot.position_site_m[0], foot.position_site_m[1]}, Eigen::Matrix2d{{xx, xy}, {xy, yy}}};
+    return {foot.track,
+            {foot.position_site_m[0], foot.position_site_m[1]},
+            Eigen::Matrix2d{{xx, xy}, {xy, yy}},
+            foot.looks};
+}
+
+bool reads_looks(const VisionSettings& settings) {
+    return settings.looks_weight > 0 || settings.association == "matrix";
+}
+
+std::unique_ptr<Naming> naming_of(const VisionSettings& settings, std::size_t max_tags, CameraLooks looks) {
+    if (settings.association == "matrix") return std::make_unique<AssociationMatrix>(settings, max_tags, looks);
+    return std::make_unique<Identity>(settings, max_tags, looks);
 }
 
 } // namespace
 
-FootPoints::Image::Image(const VisionSettings& settings, std::size_t max_tags, Duration rest)
-    : identity(settings, max_tags), strangers(static_cast<std::size_t>(settings.max_anonymous), rest) {
+FootPoints::Image::Image(const VisionSettings& settings, std::size_t max_tags, CameraLooks looks, Duration rest)
+    : naming(naming_of(settings, max_tags, looks)), strangers(static_cast<std::size_t>(settings.max_anonymous), rest) {
     feet.reserve(max_people);
 }
 
 FootPoints::FootPoints(const VisionSettings& settings, std::size_t cameras, std::size_t max_tags, Duration longest_wait,
                        Duration rest)
-    : settings_(settings), gather_(std::min(duration_from_s(settings.gather_s), longest_wait)) {
+    : settings_(settings), gather_(std::min(duration_from_s(settings.gather_s), longest_wait)),
+      looks_(std::make_unique<LookBook>(reads_looks(settings) ? cameras : 0, max_tags)) {
     images_.reserve(cameras);
-    while (images_.size() < cameras) images_.emplace_back(settings, max_tags, rest);
+    while (images_.size() < cameras)
+        images_.emplace_back(settings, max_tags, CameraLooks(*looks_, images_.size()), rest);
     people_.reserve(max_people);
 }
 
@@ -48,8 +62,8 @@ void FootPoints::run(Timestamp tick, Output& output) noexcept {
 void FootPoints::deal(Image& image, Output& output) noexcept {
     if (image.feet.empty()) return;
     people_.clear();
-    for (const HeardFoot& heard : image.feet) people_.push_back(seen(heard.foot()));
-    const auto named = image.identity.update(image.time, people_, output.locate(image.time));
+    for (const HeardFoot& heard : image.feet) people_.push_back(as_seen(heard.foot()));
+    const auto named = image.naming->update(image.time, people_, output.locate(image.time));
     for (std::size_t i = 0; i < image.feet.size(); ++i) hand_on(image, image.feet[i], named[i], output);
     image.feet.clear();
 }

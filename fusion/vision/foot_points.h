@@ -1,5 +1,5 @@
 // Foot points of cameras: they come one by one and without names. Those of one image are gathered, put beside the tags
-// (identity.h) and handed on, each to the target whose feet they are.
+// (naming.h) and handed on, each to the target whose feet they are.
 //
 // An image is dealt with at the first tick that lies gather_s after its first foot point came, or when one of a newer
 // image comes.
@@ -7,8 +7,10 @@
 
 #include "fusion/aid_book.h"
 #include "fusion/vision/anonymous.h"
+#include "fusion/vision/look_book.h"
 #include "fusion/vision/settings.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -52,8 +54,8 @@ class FootPoints {
     };
     /// What a camera sees at one moment, and what is known of the people in it from before.
     struct Image {
-        Image(const VisionSettings& settings, std::size_t max_tags, Duration rest);
-        Identity identity;
+        Image(const VisionSettings& settings, std::size_t max_tags, CameraLooks looks, Duration rest);
+        std::unique_ptr<Naming> naming;
         AnonymousTargets strangers;
         Timestamp time = Timestamp::min(); ///< of the feet in it, or of the last that were dealt with
         Timestamp first_arrival{};
@@ -65,6 +67,7 @@ class FootPoints {
 
     VisionSettings settings_;
     Duration gather_;
+    std::unique_ptr<LookBook> looks_;
     std::vector<Image> images_; ///< the newest of each camera, by its address
     std::vector<SeenPerson> people_;
 };

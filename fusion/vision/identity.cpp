@@ -17,11 +17,15 @@ double distance2(const SeenPerson& person, const LocatedTag& tag, double usual_s
     return way_m.dot(spread.inverse() * way_m) + std::max(wider, 0.0);
 }
 
+/// A look is learnt from a name that is no likelier wrong than one in ten.
+constexpr double sure = 0.9;
+
 } // namespace
 
-Identity::Identity(const IdentitySettings& settings, std::size_t max_tags)
-    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), tag_numbers_(max_tags_), tracks_(max_people),
-      evidence_(max_people * max_tags_), costs_(max_people, max_tags_), assigner_(max_people, max_tags_) {
+Identity::Identity(const IdentitySettings& settings, std::size_t max_tags, CameraLooks looks)
+    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), looks_(looks), tag_numbers_(max_tags_),
+      tracks_(max_people), evidence_(max_people * max_tags_), costs_(max_people, max_tags_),
+      assigner_(max_people, max_tags_) {
     tags_.reserve(max_tags_);
     seen_.reserve(max_people);
     held_before_.reserve(max_people);
@@ -38,6 +42,7 @@ std::span<const Named> Identity::update(Timestamp time, std::span<const SeenPers
         for (const LocatedTag& tag : tags) weigh(time, person, seen_.back(), tag);
     }
     assign_tags();
+    if (settings_.looks_weight > 0) learn_looks(time, people);
     named_.clear();
     for (const std::size_t track : seen_) named_.push_back(named(track));
     return named_;
@@ -77,7 +82,8 @@ void Identity::clear(std::size_t track) noexcept {
 /// A running mean whose memory is the window; it begins as a plain mean. No single distance counts for more than twice
 /// the gate, so that one outlier parts nobody.
 void Identity::weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept {
-    const double distance = std::min(distance2(person, tag, settings_.sigma_m), 2 * settings_.gate);
+    const double apart = distance2(person, tag, settings_.sigma_m) + looks_term(person, tag.tag);
+    const double distance = std::min(apart, 2 * settings_.gate);
     const std::uint16_t number = std::isfinite(distance) ? number_of(tag.tag) : nobody;
     if (number == nobody) return;
     Evidence& known = evidence(track, number);
@@ -88,6 +94,22 @@ void Identity::weigh(Timestamp time, const SeenPerson& person, std::size_t track
     const double plain_share = is_new ? 1 : dt_s / (known.weighed_s + dt_s);
     known.mean += std::max(plain_share, 1 - std::exp(-dt_s / settings_.window_s)) * (distance - known.mean);
     known.last = time;
+}
+
+double Identity::looks_term(const SeenPerson& person, Address tag) const noexcept {
+    if (settings_.looks_weight == 0) return 0;
+    const auto seen = colours_of(person.looks);
+    return seen.has_value() ? settings_.looks_weight * looks_.doubt(tag, seen.value()) : 0;
+}
+
+/// Not from a confidence that is only kept: after a swap of the tracker it would be of the other one.
+void Identity::learn_looks(Timestamp time, std::span<const SeenPerson> people) const noexcept {
+    for (std::size_t i = 0; i < people.size(); ++i) {
+        const std::uint16_t tag = tracks_[seen_[i]].held;
+        if (tag == nobody || confidence(seen_[i], tag) < sure) continue;
+        const auto seen = colours_of(people[i].looks);
+        if (seen.has_value()) looks_.learn(tags_[tag], seen.value(), time);
+    }
 }
 
 /// A pair that was not seen together for long is strange again, and parts.

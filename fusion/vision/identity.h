@@ -4,11 +4,10 @@
 #pragma once
 
 #include "fusion/flat_index.h"
-#include "fusion/measurement.h"
 #include "fusion/option.h"
 #include "fusion/vision/assignment.h"
-
-#include <Eigen/Core>
+#include "fusion/vision/look_book.h"
+#include "fusion/vision/naming.h"
 
 #include <array>
 #include <cstddef>
@@ -27,6 +26,7 @@ struct IdentitySettings {
     double sigma_m = 0.5;  ///< a usual fix of a tag beside a foot point; wider ones prove less
     double forget_s = 5;   ///< somewhat longer than a tracker keeps who is lost
     double keep_s = 0;     ///< tags that are told apart in every window need no memory, and a tracker's swap has none
+    double looks_weight = 0; ///< nothing gained where tags are known to half a metre (docs/cameras.md)
 };
 
 template <class Settings>
@@ -47,40 +47,22 @@ inline constexpr std::array identity_options{
         "keep_s", "s", 0, 3600,
         "Time in which the confidence of a pair fades that stays together where "
         "nothing tells it from others; 0: at once. For tags that are known to "
-        "metres only, who are not told apart in a crowd.")};
+        "metres only, who are not told apart in a crowd."),
+    option<&IdentitySettings::looks_weight, Settings>(
+        "looks_weight", "", 0, 100,
+        "hungarian: by how much looking like a tag's wearer brings a track nearer, and looking "
+        "unlike him farther, in squared Mahalanobis distances.")};
 
-struct SeenPerson {
-    std::uint32_t track = 0;
-    Eigen::Vector2d position_site_m;
-    Eigen::Matrix2d covariance_m2;
-};
-
-/// At the time of the image, so predicted to it.
-struct LocatedTag {
-    Address tag = no_address;
-    Eigen::Vector2d position_site_m;
-    Eigen::Matrix2d covariance_m2;
-};
-
-struct Named {
-    std::uint32_t track = 0;
-    std::optional<Address> tag; ///< empty: nobody's, or not known yet
-    /// 0..1, of the tag against all others of the track, all other tracks of the tag, and none; or what is left of what
-    /// it was before, for as long as the two stay together.
-    double confidence = 0;
-};
-
-inline constexpr std::size_t max_people = 64; ///< that are told apart at a time
-
-class Identity {
+class Identity final : public Naming {
   public:
     /// For so many tags in all; more are passed over. No allocation after this.
-    Identity(const IdentitySettings& settings, std::size_t max_tags);
+    Identity(const IdentitySettings& settings, std::size_t max_tags, CameraLooks looks = {});
 
-    /// One entry for each of `people`, in their order; beyond max_people nobody has a name. A tag that is not located
-    /// just now keeps its track. Times rise.
+    /// A tag that is not located just now keeps its track. The confidence is of the tag against all others of the
+    /// track, all other tracks of the tag, and none; or what is left of what it was before, for as long as the two stay
+    /// together.
     std::span<const Named> update(Timestamp time, std::span<const SeenPerson> people,
-                                  std::span<const LocatedTag> tags) noexcept;
+                                  std::span<const LocatedTag> tags) noexcept override;
 
   private:
     static constexpr std::uint16_t nobody = FlatIndex<Address>::none;
@@ -106,6 +88,8 @@ class Identity {
     }
     void clear(std::size_t track) noexcept;
     void weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept;
+    double looks_term(const SeenPerson& person, Address tag) const noexcept;
+    void learn_looks(Timestamp time, std::span<const SeenPerson> people) const noexcept;
     void forget(Timestamp time) noexcept;
     void assign_tags() noexcept;
     void hold(std::size_t track, std::uint16_t tag, double kept) noexcept;
@@ -115,6 +99,7 @@ class Identity {
 
     IdentitySettings settings_;
     std::size_t max_tags_;
+    CameraLooks looks_;
     FlatIndex<Address> tag_numbers_;
     std::vector<Address> tags_;              ///< by number
     std::vector<Track> tracks_;              ///< max_people places

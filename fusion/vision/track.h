@@ -12,13 +12,15 @@ namespace locus::vision {
 
 struct Track {
     Track(std::uint32_t number, const Detection& first, const TrackerSettings& settings)
-        : id(number), filter(first.box, settings), gallery(settings.gallery), seen_box(first.box), score(first.score) {
+        : id(number), filter(first.box, settings), gallery(settings.gallery), looks(first.looks), seen_box(first.box),
+          score(first.score) {
         gallery.add(first.appearance);
     }
 
     std::uint32_t id;
     BoxFilter filter;
     Gallery gallery;
+    Looks looks;            ///< when he was last seen without anybody before him
     BoxPx seen_box;         ///< the filter's when he was last seen
     float score;            ///< of the last detection
     std::uint32_t hits = 1; ///< detections until he was confirmed

@@ -36,6 +36,7 @@ ImageTrack shown(const Track& track) noexcept {
     out.unseen_s = track.unseen_s;
     out.occluded = track.is_covered;
     out.feet_seen = track.feet_seen;
+    out.looks = track.looks;
     return out;
 }
 
@@ -73,6 +74,7 @@ void Tracker::see(Track& track, const Detection& detection) const {
     track.feet_seen = !track.is_covered || detection.box.height_px >= settings_.whole_height * track.filter.height_px();
     track.feet_seen ? track.filter.update(detection.box) : track.filter.update_without_feet(detection.box);
     track.gallery.add(detection.appearance);
+    if (!track.is_covered && detection.looks != Looks{}) track.looks = detection.looks;
     track.seen_box = track.filter.box();
     track.score = detection.score;
     track.unseen_s = 0;

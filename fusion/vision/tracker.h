@@ -28,6 +28,7 @@ struct ImageTrack {
     double unseen_s = 0;   ///< since the last
     bool occluded = false; ///< somebody nearer covers him
     bool feet_seen = true; ///< in the last detection, as far as one can tell
+    Looks looks{};         ///< in the last detection that showed all of him
 };
 
 /// Where on the floor he stands: by his feet or, where that is surer, by his head. Empty where neither sees the floor.

@@ -3,7 +3,8 @@
 // worth. A camera sees some of them.
 #pragma once
 
-#include "fusion/radio/association_matrix.h"
+#include "fusion/vision/colours.h"
+#include "fusion/vision/naming.h"
 #include "tests/unit/fusion/radio/simulated_radios.h"
 
 #include <Eigen/Core>
@@ -23,9 +24,9 @@ class CrowdWorld {
         for (std::size_t i = 0; i < people; ++i) {
             places.emplace_back(3 + 14 * uniform(), 2 + 8 * uniform());
             offsets_.emplace_back(normal(0.7), normal(0.7));
-            radio::Histogram& look = looks_.emplace_back();
-            for (float& part : look) part = static_cast<float>(uniform() * uniform());
-            scale(look);
+            vision::Colours& look = looks_.emplace_back(vision::Colours::Zero());
+            for (float& part : look.head(colours)) part = static_cast<float>(uniform() * uniform());
+            look /= look.sum();
         }
         goal_ = middle_ = {10, 6};
     }
@@ -55,16 +56,20 @@ class CrowdWorld {
         const double distance_m = (places[person] - places[other]).norm();
         return tags.expected_dbm(distance_m) + normal(tags.sigma_db) - bodies_db(person, places[other], 0.9);
     }
-    radio::SeenTrack see(std::size_t person) {
-        radio::SeenTrack seen{static_cast<std::uint32_t>(person), places[person], looks_[person]};
+    vision::SeenPerson see(std::size_t person) {
+        vision::SeenPerson seen{static_cast<std::uint32_t>(person), places[person],
+                                0.15 * 0.15 * Eigen::Matrix2d::Identity()};
         seen.position_site_m += Eigen::Vector2d(normal(0.15), normal(0.15));
-        for (float& part : seen.colours) part *= static_cast<float>(0.8 + 0.4 * uniform());
-        scale(seen.colours);
+        vision::Colours look = looks_[person] + static_cast<float>(alike) / colours; // whose sum is one and this
+        for (float& part : look.head(colours)) part *= static_cast<float>(1 - look_noise + 2 * look_noise * uniform());
+        seen.looks = vision::looks_of(look / look.sum());
         return seen;
     }
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
     static constexpr radio::PathLoss tags{-50, 2, 3};
+    double look_noise = 0.2; ///< of each colour's share, from image to image
+    double alike = 0;        ///< what all wear alike, in shares of what each has for himself
     std::vector<Eigen::Vector2d> places;
     SimulatedRadios radios;
 
@@ -83,17 +88,13 @@ class CrowdWorld {
         }
         return sum_db;
     }
-    static void scale(radio::Histogram& look) {
-        float sum = 0;
-        for (const float part : look) sum += part;
-        for (float& part : look) part /= sum;
-    }
     double normal(double sigma) { return sigma * normal_(random_); }
 
     std::mt19937 random_;
     std::normal_distribution<double> normal_;
     std::vector<Eigen::Vector2d> offsets_;
-    std::vector<radio::Histogram> looks_;
+    static constexpr int colours = 16; ///< that people wear
+    std::vector<vision::Colours> looks_;
     Eigen::Vector2d goal_{0, 0}, middle_{0, 0};
 };
 

@@ -5,6 +5,7 @@
 #include "fusion/radio/calibrated_map.h"
 #include "fusion/radio/neighbours.h"
 #include "fusion/radio/refinement.h"
+#include "fusion/vision/association_matrix.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ class PaperSystem {
   public:
     PaperSystem(CrowdWorld& world, const Situation& situation, unsigned seed)
         : world_(world), situation_(situation), surveyed_(world.radios.survey(world.width_m, world.depth_m, 2)),
-          map_(surveyed_, {}), matrix_({}), floor_dbm_(hearing_floor_dbm(surveyed_)) {
+          map_(surveyed_, {}), looks_(1, 8), matrix_({}, 8, {looks_, 0}), floor_dbm_(hearing_floor_dbm(surveyed_)) {
         for (std::size_t i = 0; i < situation.people; ++i) {
             RefinementSettings settings;
             settings.seed = seed * 100 + i;
@@ -99,15 +100,17 @@ class PaperSystem {
     }
 
     std::map<std::size_t, Eigen::Vector2d> names(std::size_t seen_count, CrowdErrors* errors) {
-        std::vector<SeenTrack> tracks;
-        std::vector<HeardRadio> radios;
+        std::vector<vision::SeenPerson> tracks;
+        std::vector<vision::LocatedTag> radios;
         for (std::size_t i = 0; i < seen_count; ++i) tracks.push_back(world_.see(i));
         for (std::size_t i = 0; i < situation_.people; ++i)
-            radios.push_back({address(i), clouds_[i].position_site_m()});
+            radios.push_back({address(i), clouds_[i].position_site_m(), Eigen::Matrix2d::Identity()});
         std::map<std::size_t, Eigen::Vector2d> named;
-        for (const RadioPair& pair : matrix_.update(tracks, radios)) {
+        for (const vision::Named& pair :
+             matrix_.update(timestamp_from_s(CrowdWorld::frame_s * ++frames_), tracks, radios)) {
+            if (!pair.tag.has_value()) continue;
             std::size_t track = pair.track;
-            const auto person = static_cast<std::size_t>(number(pair.radio));
+            const auto person = static_cast<std::size_t>(number(pair.tag.value()));
             if (errors != nullptr) {
                 ++errors->associated;
                 errors->right += track == person;
@@ -142,7 +145,9 @@ class PaperSystem {
     Situation situation_;
     RadioMap surveyed_;
     CalibratedMap map_;
-    AssociationMatrix matrix_;
+    vision::LookBook looks_;
+    vision::AssociationMatrix matrix_;
+    int frames_ = 0;
     double floor_dbm_;
     std::vector<Refinement> clouds_;
 };

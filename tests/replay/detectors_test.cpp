@@ -16,7 +16,7 @@ namespace {
 /// One line: frame and id from 1 and -1, box, score, no place (Leal-Taixe et al. 2015, "MOTChallenge 2015",
 /// section 3.3).
 void write_mot(std::ofstream& file, std::uint64_t frame, const std::vector<vision::Detection>& detections) {
-    for (const auto& [box, score, look] : detections)
+    for (const auto& [box, score, look, reduced] : detections)
         file << frame + 1 << ",-1," << box.left_px << ',' << box.top_px << ',' << box.width_px << ',' << box.height_px
              << ',' << score << ",-1,-1,-1\n";
 }

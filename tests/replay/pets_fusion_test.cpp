@@ -291,5 +291,38 @@ TEST(PetsFusion, WithOurOwnDetections) {
     }
 }
 
+PetsOutcome names_by(const PetsScene& scene, const std::vector<PetsImage>& images, const VisionSettings& vision) {
+    PetsOutcome outcome;
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        EngineSettings settings = engine_with(scene, in_the_plane<InertialEkfSettings>("inertial_ekf"), 1);
+        settings.vision = vision;
+        outcome.add(PetsRun(scene, images, settings).run(as_they_come(pets_ranges(scene, seed, false), images, true)));
+    }
+    std::printf("%s, looks_weight %.0f, near_m %.0f, %.0f s: mean error %.3f m\n", vision.association.c_str(),
+                vision.looks_weight, vision.near_m, vision.trajectory_time_s, outcome.errors.mean_m());
+    print_names("inertial_ekf", outcome);
+    return outcome;
+}
+
+/// The same names by all ways that there are, with the looks that our own detections have.
+TEST(PetsFusion, NamesByAssociation) {
+    if (!std::getenv("LOCUS_ALL_FRAMES")) GTEST_SKIP() << "takes a minute: LOCUS_ALL_FRAMES=1 runs it";
+    const auto scene = pets_scene();
+    if (!scene.has_value()) GTEST_SKIP() << "no pets2009 or mot15_sort_det in LOCUS_DATA or ../shared/data";
+    const auto found = own_detections("hog_motion", scene->people.size(), heights_in_video(scene->view));
+    ASSERT_FALSE(found.empty());
+    const auto images = pets_images(scene.value(), found);
+    VisionSettings plain, looks, matrix;
+    looks.looks_weight = 3;
+    matrix.association = "matrix";
+    VisionSettings matrix_for_uwb = matrix;
+    matrix_for_uwb.near_m = matrix_for_uwb.trajectory_time_s = matrix_for_uwb.looks_time_s = 1;
+    const double without = names_by(scene.value(), images, plain).settled.right_share();
+    EXPECT_GE(without, 0.96);
+    EXPECT_GE(names_by(scene.value(), images, looks).settled.right_share(), without - 0.01);
+    names_by(scene.value(), images, matrix);
+    EXPECT_GE(names_by(scene.value(), images, matrix_for_uwb).settled.right_share(), 0.8);
+}
+
 } // namespace
 } // namespace locus::test

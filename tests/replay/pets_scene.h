@@ -121,7 +121,8 @@ inline std::vector<PetsImage> pets_images(const PetsScene& scene,
             const Eigen::Matrix2f m2 = at.value().covariance_m2.cast<float>();
             const Vec2 place_m{at.value().position_site_m.x(), at.value().position_site_m.y()};
             image.feet.push_back(
-                {time, 0, 1, FootPoint{address(0), track.id, place_m, {m2(0, 0), m2(0, 1), m2(1, 1)}}});
+                {time, 0, 1,
+                 FootPoint{address(0), track.id, place_m, {m2(0, 0), m2(0, 1), m2(1, 1)}, unknown_f, track.looks}});
         }
         for (const auto& [person, box] : scorer.add(scene.people[frame], boxes))
             image.person_of[boxes[box].id] = scene.people[frame][person].id;

@@ -7,11 +7,16 @@
 #include "drivers/camera/person_shape.h"
 #include "drivers/camera/suppress.h"
 #include "fusion/vision/box_geometry.h"
+#include "fusion/vision/colours.h"
+#include "fusion/vision/look_book.h"
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +79,95 @@ TEST(Appearance, OfNobodyIsEmpty) {
     EXPECT_TRUE(appearance(colour, {500, 500, 10, 20}).empty());
     EXPECT_TRUE(appearance(colour, {-50, -50, 10, 20}).empty());
     EXPECT_FALSE(appearance(colour, {150, 150, 100, 100}).empty()) << "half of it is inside";
+}
+
+vision::Colours colours_in(const Picture& picture, const vision::BoxPx& box) {
+    return vision::colours_of(looks(appearance(picture, box))).value();
+}
+
+TEST(Looks, TellClothesApartAndNotFullnessOfColour) {
+    const vision::BoxPx here{50, 20, 41, 100};
+    const auto worn = [&](const cv::Scalar& shirt, const cv::Scalar& trousers) {
+        return colours_in(dressed(shirt, trousers, here), here);
+    };
+    const auto red = worn({0, 0, 200}, {150, 0, 0});
+    EXPECT_LT(vision::bhattacharyya_distance(red, worn({60, 60, 200}, {150, 40, 40})), 0.1) << "in pale light";
+    EXPECT_GT(vision::bhattacharyya_distance(red, worn({0, 200, 0}, {150, 0, 0})), 0.5);
+    EXPECT_GT(vision::bhattacharyya_distance(red, worn({150, 0, 0}, {0, 0, 200})), 0.9) << "changed clothes";
+}
+
+TEST(Looks, OfNoSuchAppearanceAreNotKnown) {
+    EXPECT_EQ(looks({}), Looks{});
+    EXPECT_EQ(looks(vision::Appearance(128, 0.1F)), Looks{}) << "a network's embedding";
+    EXPECT_EQ(looks(vision::Appearance(120, 0)), Looks{});
+}
+
+/// A crowd in coats of any colour, with folds, before two cameras; the second has a warmer and darker picture.
+class TwoCameras {
+  public:
+    explicit TwoCameras(unsigned seed) : random_(seed) { cv::theRNG().state = seed; }
+    cv::Scalar coat() { return {any(), any(), any()}; }
+    vision::Colours seen(const cv::Scalar& shirt, const cv::Scalar& trousers, bool warm) {
+        const vision::BoxPx box{50, 20, 41, 100};
+        Picture picture = dressed(shirt, trousers, box);
+        cv::Mat image = as_mat(picture);
+        cv::Mat folds(image.size(), CV_16SC3), sum;
+        cv::randn(folds, cv::Scalar::all(0), cv::Scalar::all(20));
+        image.convertTo(sum, CV_16SC3);
+        sum += folds;
+        if (warm) cv::multiply(sum, cv::Scalar(0.6, 0.8, 0.95), sum);
+        sum.convertTo(image, CV_8UC3);
+        return colours_in(picture, box);
+    }
+
+  private:
+    double any() { return std::uniform_real_distribution<double>{20, 230}(random_); }
+    std::mt19937 random_;
+};
+
+/// How many of those seen in one camera only are the most alike to themselves in the other.
+struct Found {
+    int as_they_are = 0, carried_over = 0, of = 0;
+    double off_as_they_are = 0, off_carried_over = 0; ///< sums of distances to themselves
+};
+
+void look_for(unsigned seed, Found& found) {
+    constexpr std::uint64_t in_both = 60, all = 100;
+    TwoCameras cameras(seed);
+    vision::LookBook book(2, all);
+    std::vector<vision::Colours> first, second;
+    for (std::uint64_t i = 0; i < all; ++i) {
+        const auto shirt = cameras.coat(), trousers = cameras.coat();
+        first.push_back(cameras.seen(shirt, trousers, false));
+        second.push_back(cameras.seen(shirt, trousers, true));
+        book.learn(0, address(i), first.back(), timestamp_from_s(1));
+        if (i < in_both) book.learn(1, address(i), second.back(), timestamp_from_s(2));
+    }
+    for (std::size_t i = in_both; i < all; ++i) {
+        std::vector<double> off, off_carried;
+        for (std::size_t k = in_both; k < all; ++k) {
+            off.push_back(vision::bhattacharyya_distance(first[k], second[i]));
+            off_carried.push_back(vision::bhattacharyya_distance(book.colours(1, address(k)).value(), second[i]));
+        }
+        const auto least = [&](const std::vector<double>& d) { return std::ranges::min_element(d) - d.begin(); };
+        const auto self = static_cast<std::ptrdiff_t>(i - in_both);
+        found.as_they_are += least(off) == self;
+        found.carried_over += least(off_carried) == self;
+        found.off_as_they_are += off[i - in_both];
+        found.off_carried_over += off_carried[i - in_both];
+        ++found.of;
+    }
+}
+
+TEST(Looks, AreCarriedFromOneCameraToAnother) {
+    Found found;
+    for (unsigned seed = 1; seed <= 5; ++seed) look_for(seed, found);
+    std::printf("of %d people found again among 40: by looks as they are %d, carried over %d; mean distance %.3f and "
+                "%.3f\n",
+                found.of, found.as_they_are, found.carried_over, found.off_as_they_are / found.of,
+                found.off_carried_over / found.of);
+    EXPECT_GT(found.carried_over, found.as_they_are);
+    EXPECT_LT(found.off_carried_over, found.off_as_they_are);
 }
 
 TEST(HeightMap, LearnsThePlaneAmongOutliers) {

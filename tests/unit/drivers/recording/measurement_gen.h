@@ -29,6 +29,7 @@ class RandomFields {
     void may(std::string_view, T& value) {
         if (*rc::gen::arbitrary<bool>()) fill(value);
     }
+    void gone(std::string_view) {}
 
   private:
     template <class T>
@@ -80,6 +81,7 @@ class FieldBits {
     void may(std::string_view, const T& value) {
         add(value);
     }
+    void gone(std::string_view) {}
 
   private:
     void add(float value) { bits.push_back(std::isnan(value) ? ~0u : std::bit_cast<std::uint32_t>(value)); }

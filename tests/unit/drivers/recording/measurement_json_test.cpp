@@ -91,6 +91,25 @@ TEST(MeasurementJson, RefusesWordsThatAreNone) {
         EXPECT_EQ(why_not(head + list + "}"), R"("words" must be a list of 16 whole numbers)");
 }
 
+TEST(MeasurementJson, TakesLooksOnlyAsBytes) {
+    const std::string head = R"({"t":1,"input":0,"sequence":0,"class":"FOOT_POINT","camera":0,"track":1,)"
+                             R"("position_site_m":[1,2],"covariance_m2":[0.1,0,0.1])";
+    const std::string zeros = ",0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0"; // one is missing
+    for (const std::string& list :
+         {"[0" + zeros + ",0]", std::string("[1,2]"), "[256" + zeros + "]", "[-1" + zeros + "]", "[0.5" + zeros + "]",
+          "[1e2" + zeros + "]", std::string("\"red\"")})
+        EXPECT_EQ(why_not(head + R"(,"looks":)" + list + "}"),
+                  R"("looks" must be a list of 24 whole numbers from 0 to 255)");
+    std::string error;
+    const auto with = from_json_line(head + R"(,"looks":[255)" + zeros + "]}", error);
+    ASSERT_TRUE(with.has_value()) << error;
+    EXPECT_EQ(std::get<FootPoint>(with.value().observation).looks[0], 255);
+    const auto old = from_json_line(head + R"(,"appearance_slot":3})", error);
+    ASSERT_TRUE(old.has_value()) << error;
+    EXPECT_EQ(std::get<FootPoint>(old.value().observation).looks, Looks{});
+    EXPECT_EQ(to_json_line(old.value()).find("looks"), std::string::npos) << "nothing is known";
+}
+
 TEST(MeasurementJson, RefusesAbsurdTimes) {
     for (const char* time : {"9000000000", "-9e9", "99999999999999999999", "1e300", "\"1\"", "[1]", "true"})
         EXPECT_EQ(why_not(std::string(R"({"t":)") + time + R"(,"class":"RANGE","input":0,"sequence":0})"),

@@ -94,6 +94,7 @@ class CameraHall {
         foot.track = tracks[who];
         foot.position_site_m = {at[0] + feet_sigma_m * normal_(random_), at[1] + feet_sigma_m * normal_(random_)};
         foot.covariance_m2 = {variance, 0, variance};
+        foot.looks[2 * who] = 200;
         engine.submit({timestamp_from_s(time_s), ++sequence_, 1, foot}, timestamp_from_s(time_s + 0.04));
     }
 
@@ -175,13 +176,30 @@ TEST(FootPoints, OfNoCameraOrTooLateAreRefused) {
 }
 
 TEST(FootPoints, NeverAllocate) {
+    for (const char* association : {"hungarian", "matrix"}) {
+        EngineSettings settings = hall_settings();
+        settings.vision.anonymous = true;
+        settings.vision.association = association;
+        settings.vision.looks_weight = 3;
+        CameraHall scene(settings);
+        scene.errors_m.reserve(1000);
+        const test::AllocationCount count;
+        scene.run(10, 20);
+        EXPECT_EQ(count.made(), 0u) << association;
+    }
+}
+
+TEST(FootPoints, FindTheirOwnersByTheMatrixToo) {
     EngineSettings settings = hall_settings();
-    settings.vision.anonymous = true;
+    settings.vision.association = "matrix";
+    settings.vision.near_m = 1; // the circles are closer than the 3 m of radios that are known to metres
     CameraHall scene(settings);
-    scene.errors_m.reserve(1000);
-    const test::AllocationCount count;
-    scene.run(10, 20);
-    EXPECT_EQ(count.made(), 0u);
+    scene.run(10, 40);
+    for (std::size_t who = 0; who < 2; ++who) EXPECT_EQ(scene.poses[who].seen_as.track, who + 1);
+    std::swap(scene.tracks[0], scene.tracks[1]);
+    scene.run(40, 60);
+    EXPECT_EQ(scene.poses[0].seen_as.track, 2u);
+    EXPECT_EQ(scene.poses[1].seen_as.track, 1u);
 }
 
 } // namespace
