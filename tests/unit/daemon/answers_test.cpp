@@ -158,6 +158,20 @@ TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
     EXPECT_FALSE(source.contains("age_s"));
 }
 
+TEST(Answers, ASatelliteSaysWhatBecameOfItsCarrier) {
+    Picture picture;
+    AidStatus status;
+    status.kind = SourceKind::satellite;
+    status.last_verdict = Verdict{};
+    const auto told = [&] {
+        picture.take(SourceItem{1, 0, 1, status});
+        return json::parse(sources_line(picture, some_roster(), {}, {}))["sources"][0];
+    };
+    EXPECT_FALSE(told().contains("carrier")) << "there is none";
+    status.last_verdict.carrier = CarrierUse::slipped;
+    EXPECT_EQ(told()["carrier"], "slipped");
+}
+
 TEST(Answers, InputSaysItsRatesAndItsLastError) {
     auto status = std::make_shared<InputStatus>();
     status->state = InputState::open;

@@ -2,6 +2,7 @@
 // worth, that the filter stays as sure as it may be, and that slips are refused, also those that nobody tells.
 #include "fusion/estimators/gnss_ins.h"
 #include "fusion/gnss/carrier_change.h"
+#include "tests/allocations.h"
 #include "tests/support/heavy.h"
 #include "tests/unit/fusion/simulated_drive.h"
 
@@ -196,6 +197,21 @@ TEST(GnssInsCarrier, AProspectKnowsTheEpochThatIsNotOverYet) {
     car.filter.update(car.drive.stamped(Pressure{address(1), 101325})); // nothing but time goes on
     const Estimate then = car.filter.predict(car.drive.now());
     for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(ahead.position_site_m[i], then.position_site_m[i], 1e-3);
+}
+
+TEST(GnssInsCarrier, ACopyGoesOnToTheSameBitsAndNothingIsAllocated) {
+    CarrierCar car({}, carrier_drive(), 9);
+    car.run(30);
+    GnssIns copy(car.site, {});
+    const test::AllocationCount allocations;
+    copy.copy_from(car.filter);
+    car.drive.move();
+    const Measurement imu = car.drive.imu();
+    for (GnssIns* one : {&car.filter, &copy}) one->update(imu);
+    const Estimate here = car.filter.predict(car.drive.now()), there = copy.predict(car.drive.now());
+    EXPECT_EQ(allocations.made(), 0U);
+    EXPECT_EQ(here.position_site_m, there.position_site_m);
+    EXPECT_EQ(here.covariance, there.covariance);
 }
 
 // ---- an epoch's changes against one another

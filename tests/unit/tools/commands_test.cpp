@@ -77,6 +77,16 @@ TEST(Sources, ShowEachSourceWithItsSentenceAndEachInputWithItsError) {
     EXPECT_THAT(result.out, HasSubstr("  yard: well again; 1 min 15 s ago: it fell off\n"));
 }
 
+TEST(Sources, ASatelliteSaysWhatBecameOfItsCarrier) {
+    const FakeDaemon daemon({{"?SOURCES", R"({"class":"SOURCES","sources":[)"
+                                          R"({"name":"G05","used":true,"last_used_age_s":0.1,"carrier":"used"},)"
+                                          R"({"name":"G07","used":true,"last_used_age_s":0.1,"carrier":"slipped"}]})"
+                                          "\n"}});
+    const std::string out = run_client({"sources", "--socket", daemon.path()}).out;
+    EXPECT_THAT(out, testing::ContainsRegex("G05 .*used with its carrier"));
+    EXPECT_THAT(out, testing::ContainsRegex("G07 .*used; its carrier disagrees"));
+}
+
 TEST(Sources, OneThatFellSilentIsNotInUse) {
     const FakeDaemon daemon(
         {{"?SOURCES",
