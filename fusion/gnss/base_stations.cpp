@@ -2,6 +2,7 @@
 
 #include "fusion/filter/gate.h"
 #include "fusion/geometry/vector.h"
+#include "fusion/gnss/base_range.h"
 #include "fusion/gnss/least_squares.h"
 
 #include <algorithm>
@@ -14,28 +15,6 @@ using ClockEquations = LeastSquares<clock_count>;
 
 /// A base's clock may be set back; what is older than its last pseudorange by less is late.
 constexpr double base_late_s = 10;
-
-std::size_t base_clock(std::uint8_t constellation) { return static_cast<std::size_t>(clock_of(constellation)); }
-std::size_t base_clock(const SightFrom& s) { return base_clock(s.sight.reception.constellation); }
-
-/// From one second of the week to another, the shorter way round.
-double since_s(double then_s, double now_s) { return std::remainder(now_s - then_s, week_s); }
-
-bool is_heard(const GnssBaseRange& range) { return range.pseudorange_m > 0; }
-
-/// As a receiver at the base would have told it.
-GnssRaw raw_of(const GnssBaseRange& range, const GpsTime& received) {
-    GnssRaw raw;
-    raw.receiver_time_s_in_gps_week = received.second;
-    raw.gps_week = static_cast<std::uint16_t>(received.week);
-    raw.pseudorange_m = range.pseudorange_m;
-    raw.carrier_to_noise_dbhz = range.carrier_to_noise_dbhz;
-    raw.constellation = range.constellation;
-    raw.satellite = range.satellite;
-    raw.signal = range.signal;
-    raw.glonass_slot = range.glonass_slot;
-    return raw;
-}
 
 ClockEquations::Row clock_row(const SightFrom& s) {
     return ClockEquations::Row::Unit(static_cast<Eigen::Index>(base_clock(s)));
