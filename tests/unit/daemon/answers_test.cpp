@@ -159,11 +159,12 @@ TEST(Answers, SourceIsNamedAndItsUnknownValuesAreLeftOut) {
 }
 
 TEST(Answers, ASatelliteSaysWhatBecameOfItsCarrier) {
-    Picture picture;
     AidStatus status;
     status.kind = SourceKind::satellite;
+    status.source = address(5);
     status.last_verdict = Verdict{};
     const auto told = [&] {
+        Picture picture;
         picture.take(SourceItem{1, 0, 1, status});
         return json::parse(sources_line(picture, some_roster(), {}, {}))["sources"][0];
     };
