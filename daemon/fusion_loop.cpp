@@ -75,8 +75,10 @@ void FusionLoop::drain_inputs() noexcept {
 void FusionLoop::publish_reading(const Measurement& measurement) noexcept {
     const auto* strength = std::get_if<SignalStrength>(&measurement.observation);
     if (strength == nullptr || !std::isfinite(strength->rssi_dbm)) return;
-    for (const Delivery& delivery : deliveries_of(measurement, plan_->engine->settings().site))
-        output_.readings.push({measurement.time, *delivery.tag, delivery.sources[0], strength->rssi_dbm});
+    for (const Delivery& delivery : deliveries_of(measurement, plan_->engine->settings().site)) {
+        const Address tag = delivery.tag.value_or(no_address);
+        output_.readings.push({measurement.time, tag, delivery.sources[0], strength->rssi_dbm});
+    }
 }
 
 void FusionLoop::publish_poses(Timestamp tick) noexcept {

@@ -78,9 +78,10 @@ vision::Appearance appearance(const Picture& picture, const vision::BoxPx& box) 
 Looks looks(const vision::Appearance& appearance) noexcept {
     if (appearance.size() != body_parts.size() * bins_of_part) return {};
     vision::Colours shares = vision::Colours::Zero();
+    std::size_t at = bins_of_part; // the head says little
     for (int part = 1; part < static_cast<int>(body_parts.size()); ++part)
         for (int bin = 0; bin < bins_of_part; ++bin) {
-            const float root = appearance[static_cast<std::size_t>(part * bins_of_part + bin)];
+            const float root = appearance[at++];
             shares((part - 1) * looks_of_part + bin_of_looks(bin)) += root * root;
         }
     const float sum = shares.sum();

@@ -50,7 +50,7 @@ class Rtcm3 : public FrameDecoder<rtcm3::Format> {
         for (const Signal& signal : reading.epoch->heard()) sink.accept(frame.begun, range_of(*reading.epoch, signal));
     }
 
-    GnssBaseRange range_of(const Epoch& epoch, const Signal& signal) const {
+    GnssBaseRange range_of(const rtcm3::Epoch& epoch, const Signal& signal) const {
         GnssBaseRange range;
         range.base = address(epoch.station);
         range.time_s_in_gps_week = epoch.time_s_in_gps_week;

@@ -29,7 +29,7 @@ std::vector<Descriptor> descriptors_of(const Features& features) {
 std::vector<FeatureMatch> match_features(std::span<const Descriptor> first, std::span<const Descriptor> second) {
     if (first.empty() || second.size() < 2) return {};
     cv::theRNG().state = 1; // FLANN draws its bits from it: the same pictures, the same pairs
-    cv::FlannBasedMatcher flann(cv::makePtr<cv::flann::LshIndexParams>(tables, key_bits, probes));
+    const cv::FlannBasedMatcher flann(cv::makePtr<cv::flann::LshIndexParams>(tables, key_bits, probes));
     std::vector<std::vector<cv::DMatch>> found;
     flann.knnMatch(as_rows(first), as_rows(second), found, 2);
     constexpr auto nobody = std::numeric_limits<std::size_t>::max();

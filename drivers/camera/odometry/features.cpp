@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <set>
+#include <utility>
 
 namespace locus::camera {
 namespace {
@@ -27,8 +28,8 @@ double focal_of(const vision::Lens& lens) {
 
 } // namespace
 
-FeatureFinder::FeatureFinder(const vision::Lens& lens, const Eigen::Vector2i& size_px, int count)
-    : lens_{lens}, size_px_{size_px}, count_{count}, focal_px_{focal_of(lens)},
+FeatureFinder::FeatureFinder(vision::Lens lens, const Eigen::Vector2i& size_px, int count)
+    : lens_{std::move(lens)}, size_px_{size_px}, count_{count}, focal_px_{focal_of(lens_)},
       orb_{cv::ORB::create(candidates * count, static_cast<float>(octave_ratio), octaves, 31, 0, 2,
                            cv::ORB::HARRIS_SCORE, 31, corner_threshold)} {
     measure_half();

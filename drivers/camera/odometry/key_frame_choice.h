@@ -11,7 +11,7 @@ class KeyFrameChoice {
     /// A key frame was made that saw so many points of the map.
     void start(std::size_t seen) { seen_ = seen; }
 
-    bool wants(const VisualMap& map, const Tracked& now) {
+    bool wants(const VisualMap& map, const Tracked& now) const {
         const KeyFrame& newest = map.keys().rbegin()->second;
         const double way = (now.pose.centre() - newest.pose.centre()).norm();
         const double turn_rad = now.pose.camera_from_map.angularDistance(newest.pose.camera_from_map);

@@ -37,7 +37,7 @@ std::optional<Eigen::Vector3d> triangulate(const SightLine& a, const SightLine& 
     put_rows(system, 2, b, focal_px);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(system.transpose() * system);
     const Eigen::Vector4d point = solver.eigenvectors().col(0);
-    const Eigen::Vector3d place = point.hnormalized();
+    Eigen::Vector3d place = point.hnormalized();
     if (!place.allFinite()) return std::nullopt;
     if (!(parallax_rad(place, a.pose.centre(), b.pose.centre()) > least_parallax_rad)) return std::nullopt;
     if (!(misfit(place, a, focal_px) < most_off_point && misfit(place, b, focal_px) < most_off_point))

@@ -54,7 +54,7 @@ TwoViewModel chosen_model(const Features& first, const Features& second, const s
         in_second.push_back(b);
     }
     const auto from = slopes(first, in_first, focal_px), to = slopes(second, in_second, focal_px);
-    TwoViewModel deep = essential_model(from, to, 1 / focal_px), flat = homography_model(from, to, 1 / focal_px);
+    const TwoViewModel deep = essential_model(from, to, 1 / focal_px), flat = homography_model(from, to, 1 / focal_px);
     is_flat = flat.score > flat_share * (flat.score + deep.score);
     return is_flat ? flat : deep;
 }

@@ -37,9 +37,9 @@ class VisualOdometer::Way {
         }
         const auto view = find_two_view(reference_, features, matches, camera_.focal_px);
         if (!view.has_value()) return std::nullopt;
-        map_ = start_map(reference_, features, view.value(), camera_);
+        VisualMap& map = map_.emplace(start_map(reference_, features, view.value(), camera_));
         state_ = OdometerState::tracking;
-        const KeyFrame& newest = map_.value().key(map_.value().newest());
+        const KeyFrame& newest = map.key(map.newest());
         last_ = newest.points;
         seen_ = count_points(last_);
         choice_.start(seen_);
