@@ -22,7 +22,7 @@ class VisualOdometer::Way {
         const Features features = finder_.find(grey);
         std::optional<CameraPose> pose;
         if (map_.has_value())
-            pose = follow(features, captured);
+            pose = follow(map_.value(), features, captured);
         else
             pose = begin(features, captured);
         return {state_, segment_, pose, pose.has_value() ? seen_ : 0};
@@ -47,8 +47,7 @@ class VisualOdometer::Way {
         return newest.pose;
     }
 
-    std::optional<CameraPose> follow(const Features& features, Timestamp captured) {
-        VisualMap& map = map_.value();
+    std::optional<CameraPose> follow(VisualMap& map, const Features& features, Timestamp captured) {
         auto tracked = track_map(map, features, camera_, guess_.at(captured), last_);
         if (!tracked.has_value()) {
             if (to_s(captured - guess_.last()) > settings_.lost_after_s) lose();
