@@ -52,9 +52,11 @@ class LookBook {
     const Memory& memory(std::size_t camera, std::size_t tag) const noexcept {
         return memories_[camera * max_tags_ + tag];
     }
-    Shared& shared(std::size_t camera, std::size_t other) noexcept { return shared_[camera * cameras_ + other]; }
-    const Shared& shared(std::size_t camera, std::size_t other) const noexcept {
-        return shared_[camera * cameras_ + other];
+    Shared& shared(std::size_t first_camera, std::size_t second_camera) noexcept {
+        return shared_[first_camera * cameras_ + second_camera];
+    }
+    const Shared& shared(std::size_t first_camera, std::size_t second_camera) const noexcept {
+        return shared_[first_camera * cameras_ + second_camera];
     }
     void tell_apart(std::size_t camera, std::size_t tag, const Colours& seen) noexcept;
     void share(std::size_t camera, std::size_t tag, const Colours& before, bool is_new) noexcept;
