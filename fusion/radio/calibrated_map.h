@@ -15,7 +15,9 @@
 namespace locus::radio {
 
 struct CalibrationSettings {
-    double gain = 0.2;           ///< of what is off, taken over at once by a point right there
+    /// Of what is off, taken over at once by a point right there: what stays is to be learnt and not what passes, so a
+    /// visit of some seconds must not outweigh the survey.
+    double gain = 0.05;
     double reach_m = 1.5;        ///< over which that falls by e^-1/2
     double most_db = 15;         ///< from the surveyed strength
     std::size_t memory = 200000; ///< lessons that can be taken back

@@ -1,6 +1,6 @@
 // Who may teach the radio map (paper 003 section 5.1): whose radio is heard while a camera sees him, and whose name has
-// been sure for a while. When a camera's track turns out to be somebody else's, what its first owner taught is
-// withdrawn: one of the two names was wrong, and nobody knows which.
+// been sure for a while, and who stands alone. When a camera's track turns out to be somebody else's, what its first
+// owner taught is withdrawn: one of the two names was wrong, and nobody knows which.
 #pragma once
 
 #include "fusion/measurement.h"
@@ -33,6 +33,8 @@ class Teachers {
     /// Wrong names of people who cross last up to two seconds (docs/cameras.md).
     static constexpr double sure_after_s = 5;
     static constexpr double least_confidence = 0.9;
+    /// Bodies so near shade a radio for as long as they stand there; that is not to be learnt.
+    static constexpr double alone_m = 2.5;
 
   private:
     struct Course {
@@ -53,10 +55,12 @@ class Teachers {
 
     std::size_t course_of(std::size_t target, const FootPoint& foot, Timestamp time) noexcept;
     void begin(Course& course, std::size_t target, const FootPoint& foot, Timestamp time) noexcept;
+    bool is_alone(std::size_t target, Timestamp time) const noexcept;
     void push(const Lesson& lesson) noexcept;
 
     std::vector<Course> courses_;
-    std::vector<Place> places_; ///< of the feet of each target
+    std::vector<Place> places_;   ///< of the feet of each target
+    std::size_t place_count_ = 0; ///< the first so many are of targets that were ever seen
     std::vector<Lesson> lessons_;
     std::uint64_t last_number_ = 0;
     bool was_taken_ = false;

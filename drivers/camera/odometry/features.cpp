@@ -28,8 +28,8 @@ double focal_of(const vision::Lens& lens) {
 
 } // namespace
 
-FeatureFinder::FeatureFinder(vision::Lens lens, const Eigen::Vector2i& size_px, int count)
-    : lens_{std::move(lens)}, size_px_{size_px}, count_{count}, focal_px_{focal_of(lens_)},
+FeatureFinder::FeatureFinder(vision::Lens lens, Eigen::Vector2i size_px, int count)
+    : lens_{std::move(lens)}, size_px_{std::move(size_px)}, count_{count}, focal_px_{focal_of(lens_)},
       orb_{cv::ORB::create(candidates * count, static_cast<float>(octave_ratio), octaves, 31, 0, 2,
                            cv::ORB::HARRIS_SCORE, 31, corner_threshold)} {
     measure_half();

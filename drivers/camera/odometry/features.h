@@ -41,7 +41,7 @@ using Features = std::vector<Feature>;
 class FeatureFinder {
   public:
     /// `lens`: of pictures of this size. `count`: how many features are aimed at.
-    FeatureFinder(vision::Lens lens, const Eigen::Vector2i& size_px, int count);
+    FeatureFinder(vision::Lens lens, Eigen::Vector2i size_px, int count);
 
     /// Of a grey picture.
     Features find(const cv::Mat& grey);

@@ -50,9 +50,9 @@ class MapKeepers : public testing::Test {
     }
     std::unique_ptr<MapKeeper> keeper() { return MapKeeper::make(settings_, output_->lessons, *loop_); }
 
-    /// Fifty times that a beacon is 10 dB stronger at the first point than the survey says.
+    /// Two hundred times that a beacon is 10 dB stronger at the first point than the survey says.
     void teach(std::uint64_t course) {
-        for (int i = 0; i < 50; ++i) output_->lessons.push({course, false, {0, 1}, {address(100), -40}});
+        for (int i = 0; i < 200; ++i) output_->lessons.push({course, false, {0, 1}, {address(100), -40}});
     }
     void cycle() { loop_->cycle(timestamp_from_s(++ticks_)); }
     double first_point_dbm() const {

@@ -29,13 +29,13 @@ FootPoint feet_of_track(std::uint32_t track, double x_m) {
 constexpr radio::Reading a_reading{address(100), -60};
 
 /// Two people for so long: 0 is track 1, 1 is track 2, both are heard ten times a second.
-std::size_t two_walk(Teachers& teachers, double from_s, double to_s, double confidence) {
+std::size_t two_walk(Teachers& teachers, double from_s, double to_s, double confidence, double apart_m = 5) {
     std::size_t lessons = 0;
     const auto steps = static_cast<int>((to_s - from_s) * 10);
     for (int i = 0; i < steps; ++i) {
         const Timestamp time = timestamp_from_s(from_s + 0.1 * i);
         for (std::uint32_t person = 0; person < 2; ++person) {
-            teachers.see(person, feet_of_track(person + 1, person), confidence, time);
+            teachers.see(person, feet_of_track(person + 1, apart_m * person), confidence, time);
             teachers.hear(person, a_reading, time);
         }
         for (const Lesson& lesson : teachers.take()) lessons += !lesson.is_withdrawn;
@@ -49,6 +49,11 @@ TEST(MapTeachers, TeachOnceTheirNameHasBeenSureForAWhile) {
     EXPECT_GE(two_walk(teachers, 5, 6, 1), 18U);
     EXPECT_EQ(two_walk(teachers, 6, 7, 0.5), 0U) << "in doubt";
     EXPECT_EQ(two_walk(teachers, 7, 11.9, 1), 0U) << "sure anew";
+}
+
+TEST(MapTeachers, TeachNothingWhereOthersStandBesideThem) {
+    Teachers teachers(2);
+    EXPECT_EQ(two_walk(teachers, 0, 10, 1, 1), 0U);
 }
 
 TEST(MapTeachers, AreNotHeardWhereNobodySawThemJustNow) {
