@@ -30,6 +30,9 @@ void write_radio_map(const std::string& path, const radio::RadioMap& map);
 void load_radio_maps(std::vector<EstimatorSettings>& estimators, const std::filesystem::path& folder,
                      std::vector<ConfigProblem>& problems);
 
+/// For a heading: YYYY-MM-DD, UTC.
+std::string date_of_today();
+
 /// All radio maps that the settings hold, as they were surveyed: another text, another engine.
 std::string radio_maps_text(const std::vector<EstimatorSettings>& estimators);
 

@@ -5,12 +5,14 @@
 #include "config/yaml_tree.h"
 #include "fusion/estimators/radio_particles.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <system_error>
@@ -68,6 +70,8 @@ void write_radio_map(const std::string& path, const radio::RadioMap& map) {
     write_new(beside, text);
     if (std::rename(beside.c_str(), path.c_str()) != 0) cannot_write(path);
 }
+
+std::string date_of_today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
 
 std::string radio_maps_text(const std::vector<EstimatorSettings>& estimators) {
     std::string text;

@@ -47,9 +47,8 @@ struct WhomItConcerns {
     Deliveries operator()(const WheelSpeed& o) const { return one(o.tag, SourceKind::vehicle, o.tag); }
     Deliveries operator()(const Pressure& o) const { return one(o.tag, SourceKind::input, this_input()); }
     Deliveries operator()(const SignalStrength& o) const {
-        const bool heard_at_anchor = site.find_anchor(o.receiver) != nullptr;
-        return heard_at_anchor ? one(o.transmitter, SourceKind::beacon, o.receiver)
-                               : one(o.receiver, SourceKind::beacon, o.transmitter);
+        const Address beacon = beacon_of(o, site);
+        return one(beacon == o.receiver ? o.transmitter : o.receiver, SourceKind::beacon, beacon);
     }
     Deliveries operator()(const GnssNavigation& o) const {
         return one(o.tag, SourceKind::satellite, satellite_address(o));
@@ -119,6 +118,10 @@ struct ShownValue {
 } // namespace
 
 // NOLINTBEGIN(bugprone-exception-escape): all alternatives are trivial, so the variant never loses its value
+Address beacon_of(const SignalStrength& strength, const Site& site) noexcept {
+    return site.find_anchor(strength.receiver) != nullptr ? strength.receiver : strength.transmitter;
+}
+
 Deliveries deliveries_of(const Measurement& measurement, const Site& site) noexcept {
     return std::visit(WhomItConcerns{measurement.input, site}, measurement.observation);
 }

@@ -30,7 +30,10 @@ struct Deliveries {
     const Delivery* end() const noexcept { return items.data() + count; }
 };
 
-/// The site settles which end of a signal strength is the tag: the one that is not an anchor.
+/// The end of a signal strength that does not move: the site settles which, where its receiver is an anchor.
+Address beacon_of(const SignalStrength& strength, const Site& site) noexcept;
+
+/// Of a signal strength the tag is the end that is no beacon.
 Deliveries deliveries_of(const Measurement& measurement, const Site& site) noexcept;
 
 /// Takes out of an anchor delivery the sources that the site knows. True when strangers are left: then the delivery

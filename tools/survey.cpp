@@ -6,10 +6,8 @@
 #include "tools/survey/collect.h"
 #include "tools/survey/live.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
@@ -105,13 +103,11 @@ int run_survey(SurveyOptions& options) {
     }
 }
 
-std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
-
 } // namespace
 
 void add_survey(CLI::App& root, int& exit_code) {
     auto options = std::make_shared<SurveyOptions>();
-    options->request.heading.date = today();
+    options->request.heading.date = config::date_of_today();
     CLI::App& app = *root.add_subcommand("survey", "Makes a radio map of recordings and poses, or of a walk under way");
     app.add_option("FILE", options->request.recordings, "Recordings with signal strengths (.jsonl, .log)");
     app.add_flag("--live", options->live, "Ask the running daemon, until Ctrl-C");

@@ -1,5 +1,6 @@
 #include "daemon/radio/map_keeper.h"
 
+#include "config/radio_map.h"
 #include "config/radio_map_versions.h"
 #include "daemon/realtime.h"
 #include "drivers/clock.h"
@@ -7,7 +8,6 @@
 #include "fusion/estimators/radio_grid.h"
 #include "fusion/estimators/radio_particles.h"
 
-#include <fmt/chrono.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -17,8 +17,6 @@ namespace locus {
 namespace {
 
 constexpr Duration between_looks = std::chrono::milliseconds{200}; // the ring holds some seconds of lessons
-
-std::string date_of_today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
 
 } // namespace
 
@@ -42,7 +40,7 @@ MapKeeper::MapKeeper(std::shared_ptr<const RadioParticlesSettings> settings, Les
 MapKeeper::~MapKeeper() {
     thread_ = {}; // stops and waits for it
     take_lessons();
-    if (taken_ + withdrawn_ > 0) write(date_of_today());
+    if (taken_ + withdrawn_ > 0) write(config::date_of_today());
 }
 
 void MapKeeper::start() {
@@ -51,7 +49,7 @@ void MapKeeper::start() {
         renewed_ = monotonic_now();
         while (!stop.stop_requested()) {
             sleep_unless_stopped(stop, between_looks);
-            work(monotonic_now(), date_of_today());
+            work(monotonic_now(), config::date_of_today());
         }
     }};
 }
@@ -67,10 +65,7 @@ void MapKeeper::work(Timestamp now, const std::string& date) {
 void MapKeeper::take_lessons() {
     for (radio::Lesson lesson; lessons_.pop(lesson);) {
         ++(lesson.is_withdrawn ? withdrawn_ : taken_);
-        if (lesson.is_withdrawn)
-            map_.take_back(lesson.course);
-        else
-            map_.learn(lesson.course, {lesson.position_site_m[0], lesson.position_site_m[1]}, {&lesson.reading, 1});
+        map_.heed(lesson);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "fusion/estimators/radio_particles.h"
 
 #include "fusion/estimators/radio_grid.h"
+#include "fusion/identity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +86,7 @@ Exclusion RadioParticles::hear(const ImuSample& sample, Timestamp time) noexcept
 }
 
 Verdict RadioParticles::hear(const SignalStrength& strength, Timestamp time) noexcept {
-    const bool heard_at_anchor = site_->find_anchor(strength.receiver) != nullptr;
-    const std::size_t index = grid().index_of(heard_at_anchor ? strength.receiver : strength.transmitter);
+    const std::size_t index = grid().index_of(beacon_of(strength, *site_));
     if (strength.rssi_dbm < radio::weakest_dbm || strength.rssi_dbm > radio::strongest_dbm)
         return {Exclusion::out_of_reach};
     if (index == radio::StrengthGrid::none)

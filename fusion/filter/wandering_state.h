@@ -163,11 +163,9 @@ void WanderingState<MaxCore, MaxWanderers>::become_copy(int wanderer, double val
 
 template <int MaxCore, int MaxWanderers>
 int WanderingState<MaxCore, MaxWanderers>::wanderer(std::int32_t key, const WanderModel& model) noexcept {
-    const auto known = wanderers_.begin() + (size() - core_);
-    const auto found = std::find_if(wanderers_.begin(), known, [&](const Wanderer& w) { return w.key == key; });
-    if (found != known) {
-        found->asked = ++asked_;
-        return core_ + static_cast<int>(found - wanderers_.begin());
+    if (const int known = known_wanderer(key); known >= 0) {
+        wanderers_[known - core_].asked = ++asked_;
+        return known;
     }
     const int k = claim();
     wanderers_[k - core_] = {key, model, ++asked_};

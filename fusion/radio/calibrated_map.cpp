@@ -53,6 +53,11 @@ void CalibratedMap::learn(std::uint64_t teacher, const Eigen::Vector2d& position
     }
 }
 
+void CalibratedMap::heed(const Lesson& lesson) {
+    if (lesson.is_withdrawn) return take_back(lesson.course);
+    learn(lesson.course, {lesson.position_site_m[0], lesson.position_site_m[1]}, {&lesson.reading, 1});
+}
+
 void CalibratedMap::move(std::size_t point, std::size_t strength, double wanted_db, std::uint64_t teacher) {
     const double surveyed = surveyed_.points[point].heard[strength].mean_dbm;
     double& now = now_.points[point].heard[strength].mean_dbm;
@@ -63,7 +68,7 @@ void CalibratedMap::move(std::size_t point, std::size_t strength, double wanted_
 }
 
 void CalibratedMap::take_back(std::uint64_t teacher) {
-    std::erase_if(lessons_, [&](const Lesson& lesson) {
+    std::erase_if(lessons_, [&](const Taught& lesson) {
         if (lesson.teacher != teacher) return false;
         const double surveyed = surveyed_.points[lesson.point].heard[lesson.strength].mean_dbm;
         double& now = now_.points[lesson.point].heard[lesson.strength].mean_dbm;

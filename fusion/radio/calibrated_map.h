@@ -4,6 +4,7 @@
 // one than a bound, and what somebody taught can be taken back when the name turns out wrong.
 #pragma once
 
+#include "fusion/radio/lesson.h"
 #include "fusion/radio/radio_map.h"
 
 #include <Eigen/Core>
@@ -37,11 +38,13 @@ class CalibratedMap {
     /// `teacher` was seen at `position_site_m` and heard this. Only beacons that a point heard in the survey are
     /// taught.
     void learn(std::uint64_t teacher, const Eigen::Vector2d& position_site_m, std::span<const Reading> heard);
+    /// What a lesson says: one of the two.
+    void heed(const Lesson& lesson);
     /// Undoes what is remembered of this one's lessons.
     void take_back(std::uint64_t teacher);
 
   private:
-    struct Lesson {
+    struct Taught {
         std::uint64_t teacher;
         std::size_t point, strength; ///< indices
         double moved_db;
@@ -50,7 +53,7 @@ class CalibratedMap {
 
     RadioMap surveyed_, now_;
     CalibrationSettings settings_;
-    std::deque<Lesson> lessons_;
+    std::deque<Taught> lessons_;
 };
 
 /// Whether both have the same points and, at each, the same beacons.

@@ -12,9 +12,8 @@ constexpr double worthless_after = 5;
 } // namespace
 
 AssociationMatrix::AssociationMatrix(const AssociationSettings& settings, std::size_t max_tags, CameraLooks looks)
-    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), looks_(looks), tag_numbers_(max_tags_),
+    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), looks_(looks), tags_(max_tags_),
       tracks_(max_people), pairs_(max_people * max_tags_) {
-    tags_.reserve(max_tags_);
     seen_.reserve(max_people);
     named_.reserve(max_people);
 }
@@ -68,31 +67,19 @@ void AssociationMatrix::clear(std::size_t track) noexcept {
     std::fill_n(&similarity(track, 0), max_tags_, Similarity{});
 }
 
-/// Where there is no room, the place of whom nobody has seen for longest.
 std::size_t AssociationMatrix::place_of(std::uint32_t track) noexcept {
-    auto place = std::find_if(tracks_.begin(), tracks_.end(),
-                              [&](const Track& known) { return known.last != never && known.number == track; });
-    const bool is_new = place == tracks_.end();
-    if (is_new) place = std::ranges::min_element(tracks_, {}, &Track::last);
+    const auto place = place_of_track(tracks_, track, never);
+    const bool is_new = place->last == never || place->number != track;
     const auto number = static_cast<std::size_t>(place - tracks_.begin());
     if (is_new) clear(number);
     tracks_[number].number = track;
     return number;
 }
 
-std::uint16_t AssociationMatrix::number_of(Address tag) noexcept {
-    const auto known = tag_numbers_.find(tag);
-    if (known != nobody || tags_.size() == max_tags_) return known;
-    const auto number = static_cast<std::uint16_t>(tags_.size());
-    tags_.push_back(tag);
-    tag_numbers_.put(tag, number);
-    return number;
-}
-
 void AssociationMatrix::meet(double dt_s, std::size_t track, const std::optional<Colours>& seen,
                              const LocatedTag& tag) noexcept {
-    const std::uint16_t number = number_of(tag.tag);
-    if (number == nobody) return;
+    const std::uint16_t number = tags_.of(tag.tag);
+    if (number == TagNumbers::none) return;
     const auto known = looks_.colours(tag.tag);
     const bool can_compare = seen.has_value() && known.has_value();
     const double alike = can_compare ? 1 - bhattacharyya_distance(seen.value(), known.value()) : 1;

@@ -4,10 +4,10 @@
 // turns. Time constants instead of the paper's factors for each image, since images come at any rate.
 #pragma once
 
-#include "fusion/flat_index.h"
 #include "fusion/option.h"
 #include "fusion/vision/look_book.h"
 #include "fusion/vision/naming.h"
+#include "fusion/vision/tag_numbers.h"
 
 #include <array>
 #include <vector>
@@ -49,7 +49,6 @@ class AssociationMatrix final : public Naming {
                                   std::span<const LocatedTag> tags) noexcept override;
 
   private:
-    static constexpr std::uint16_t nobody = FlatIndex<Address>::none;
     static constexpr Timestamp never = Timestamp::min();
 
     struct Similarity {
@@ -67,7 +66,6 @@ class AssociationMatrix final : public Naming {
     void fade(Timestamp time) noexcept;
     void clear(std::size_t track) noexcept;
     std::size_t place_of(std::uint32_t track) noexcept;
-    std::uint16_t number_of(Address tag) noexcept;
     void meet(double dt_s, std::size_t track, const std::optional<Colours>& seen, const LocatedTag& tag) noexcept;
     double element(std::size_t track, std::size_t tag) const noexcept;
     bool is_largest(std::size_t track, std::size_t tag) const noexcept;
@@ -76,8 +74,7 @@ class AssociationMatrix final : public Naming {
     AssociationSettings settings_;
     std::size_t max_tags_;
     CameraLooks looks_;
-    FlatIndex<Address> tag_numbers_;
-    std::vector<Address> tags_;     ///< by number
+    TagNumbers tags_;
     std::vector<Track> tracks_;     ///< max_people places
     std::vector<Similarity> pairs_; ///< a row for each track
     std::vector<std::size_t> seen_; ///< places of the people of this image

@@ -23,10 +23,9 @@ constexpr double sure = 0.9;
 } // namespace
 
 Identity::Identity(const IdentitySettings& settings, std::size_t max_tags, CameraLooks looks)
-    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), looks_(looks), tag_numbers_(max_tags_),
+    : settings_(settings), max_tags_(std::max<std::size_t>(max_tags, 1)), looks_(looks), tags_(max_tags_),
       tracks_(max_people), evidence_(max_people * max_tags_), costs_(max_people, max_tags_),
       assigner_(max_people, max_tags_) {
-    tags_.reserve(max_tags_);
     seen_.reserve(max_people);
     held_before_.reserve(max_people);
     named_.reserve(max_people);
@@ -48,12 +47,9 @@ std::span<const Named> Identity::update(Timestamp time, std::span<const SeenPers
     return named_;
 }
 
-/// Where there is no room, the place of whom nobody has seen for longest.
 std::size_t Identity::place_of(std::uint32_t track, Timestamp time) noexcept {
-    auto place = std::find_if(tracks_.begin(), tracks_.end(),
-                              [&](const Track& known) { return known.last != never && known.number == track; });
-    const bool is_new = place == tracks_.end();
-    if (is_new) place = std::ranges::min_element(tracks_, {}, &Track::last);
+    const auto place = place_of_track(tracks_, track, never);
+    const bool is_new = place->last == never || place->number != track;
     const auto number = static_cast<std::size_t>(place - tracks_.begin());
     if (is_new) {
         clear(number);
@@ -62,15 +58,6 @@ std::size_t Identity::place_of(std::uint32_t track, Timestamp time) noexcept {
     if (place->held != nobody)
         place->confidence *= settings_.keep_s > 0 ? std::exp(-to_s(time - place->last) / settings_.keep_s) : 0;
     place->last = time;
-    return number;
-}
-
-std::uint16_t Identity::number_of(Address tag) noexcept {
-    const auto known = tag_numbers_.find(tag);
-    if (known != nobody || tags_.size() == max_tags_) return known;
-    const auto number = static_cast<std::uint16_t>(tags_.size());
-    tags_.push_back(tag);
-    tag_numbers_.put(tag, number);
     return number;
 }
 
@@ -84,7 +71,7 @@ void Identity::clear(std::size_t track) noexcept {
 void Identity::weigh(Timestamp time, const SeenPerson& person, std::size_t track, const LocatedTag& tag) noexcept {
     const double apart = distance2(person, tag, settings_.sigma_m) + looks_term(person, tag.tag);
     const double distance = std::min(apart, 2 * settings_.gate);
-    const std::uint16_t number = std::isfinite(distance) ? number_of(tag.tag) : nobody;
+    const std::uint16_t number = std::isfinite(distance) ? tags_.of(tag.tag) : nobody;
     if (number == nobody) return;
     Evidence& known = evidence(track, number);
     const bool is_new = known.last == never;

@@ -3,11 +3,11 @@
 // (paper 000 eq. 27-28, with Mahalanobis distances and room for people without a tag and tags without a person).
 #pragma once
 
-#include "fusion/flat_index.h"
 #include "fusion/option.h"
 #include "fusion/vision/assignment.h"
 #include "fusion/vision/look_book.h"
 #include "fusion/vision/naming.h"
+#include "fusion/vision/tag_numbers.h"
 
 #include <array>
 #include <cstddef>
@@ -65,7 +65,7 @@ class Identity final : public Naming {
                                   std::span<const LocatedTag> tags) noexcept override;
 
   private:
-    static constexpr std::uint16_t nobody = FlatIndex<Address>::none;
+    static constexpr std::uint16_t nobody = TagNumbers::none;
 
     struct Evidence {
         double mean = 0; ///< of the squared distance, gate and doubt included
@@ -81,7 +81,6 @@ class Identity final : public Naming {
     static constexpr Timestamp never = Timestamp::min();
 
     std::size_t place_of(std::uint32_t track, Timestamp time) noexcept;
-    std::uint16_t number_of(Address tag) noexcept;
     Evidence& evidence(std::size_t track, std::size_t tag) noexcept { return evidence_[track * max_tags_ + tag]; }
     const Evidence& evidence(std::size_t track, std::size_t tag) const noexcept {
         return evidence_[track * max_tags_ + tag];
@@ -100,8 +99,7 @@ class Identity final : public Naming {
     IdentitySettings settings_;
     std::size_t max_tags_;
     CameraLooks looks_;
-    FlatIndex<Address> tag_numbers_;
-    std::vector<Address> tags_;              ///< by number
+    TagNumbers tags_;
     std::vector<Track> tracks_;              ///< max_people places
     std::vector<Evidence> evidence_;         ///< a row for each track
     std::vector<std::size_t> seen_;          ///< places of the people of this image

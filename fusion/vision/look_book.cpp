@@ -23,7 +23,7 @@ constexpr double least_difference = 0.05;
 } // namespace
 
 LookBook::LookBook(std::size_t cameras, std::size_t max_tags)
-    : cameras_(cameras), max_tags_(std::max<std::size_t>(max_tags, 1)), numbers_(max_tags_),
+    : cameras_(cameras), max_tags_(std::max<std::size_t>(max_tags, 1)), tags_(max_tags_),
       memories_(cameras * max_tags_), shared_(cameras * cameras), usual_(cameras) {}
 
 std::optional<Colours> LookBook::colours(std::size_t camera, Address tag) const noexcept {
@@ -44,8 +44,8 @@ std::optional<Colours> LookBook::colours(std::size_t camera, Address tag) const 
 
 void LookBook::learn(std::size_t camera, Address tag, const Colours& seen, Timestamp time) noexcept {
     if (camera >= cameras_) return;
-    const std::size_t number = number_of(tag);
-    if (number == max_tags_) return;
+    const std::uint16_t number = tags_.of(tag);
+    if (number == TagNumbers::none) return;
     Memory& known = memory(camera, number);
     const bool is_new = !known.is_known();
     if (!is_new && time <= known.last) return;
@@ -70,18 +70,9 @@ double LookBook::doubt(std::size_t camera, Address tag, const Colours& seen) con
     return std::clamp(2 * (bhattacharyya_distance(seen, look.value()) - halfway) / difference, -1.0, 1.0);
 }
 
-/// max_tags_: there is no room.
-std::size_t LookBook::number_of(Address tag) noexcept {
-    const auto found = numbers_.find(tag);
-    if (found != FlatIndex<Address>::none) return found;
-    if (tag_count_ == max_tags_) return max_tags_;
-    numbers_.put(tag, static_cast<std::uint16_t>(tag_count_));
-    return tag_count_++;
-}
-
 const LookBook::Memory* LookBook::known(std::size_t camera, Address tag) const noexcept {
-    const auto number = numbers_.find(tag);
-    if (camera >= cameras_ || number == FlatIndex<Address>::none) return nullptr;
+    const auto number = tags_.find(tag);
+    if (camera >= cameras_ || number == TagNumbers::none) return nullptr;
     const Memory& found = memory(camera, number);
     return found.is_known() ? &found : nullptr;
 }
@@ -89,7 +80,7 @@ const LookBook::Memory* LookBook::known(std::size_t camera, Address tag) const n
 void LookBook::tell_apart(std::size_t camera, std::size_t tag, const Colours& seen) noexcept {
     double sum = 0;
     int others = 0;
-    for (std::size_t other = 0; other < tag_count_; ++other)
+    for (std::size_t other = 0; other < tags_.size(); ++other)
         if (other != tag && memory(camera, other).is_known()) {
             sum += bhattacharyya_distance(seen, memory(camera, other).colours);
             ++others;

@@ -3,8 +3,8 @@
 // people whose names were sure in both (paper 003 section 3, after Gilbert and Bowden 2006; theirs is a matrix).
 #pragma once
 
-#include "fusion/flat_index.h"
 #include "fusion/vision/colours.h"
+#include "fusion/vision/tag_numbers.h"
 
 #include <cstddef>
 #include <optional>
@@ -46,7 +46,6 @@ class LookBook {
     };
     static constexpr Timestamp never = Timestamp::min();
 
-    std::size_t number_of(Address tag) noexcept;
     const Memory* known(std::size_t camera, Address tag) const noexcept;
     Memory& memory(std::size_t camera, std::size_t tag) noexcept { return memories_[camera * max_tags_ + tag]; }
     const Memory& memory(std::size_t camera, std::size_t tag) const noexcept {
@@ -62,8 +61,7 @@ class LookBook {
     void share(std::size_t camera, std::size_t tag, const Colours& before, bool is_new) noexcept;
 
     std::size_t cameras_, max_tags_;
-    FlatIndex<Address> numbers_;
-    std::size_t tag_count_ = 0;
+    TagNumbers tags_;
     std::vector<Memory> memories_; ///< a row for each camera
     std::vector<Shared> shared_;   ///< a row for each camera
     std::vector<Usual> usual_;     ///< of each camera

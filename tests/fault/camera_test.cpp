@@ -1,8 +1,8 @@
 // A camera in the daemon: a folder of pictures is its device, a tag behind a pseudo-terminal is worn by whom it sees.
-#include "drivers/uwb/trek1000.h"
 #include "fusion/vision/camera_model.h"
 #include "tests/support/daemon_process.h"
 #include "tests/support/socket_client.h"
+#include "tests/support/trek_tag.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -99,14 +99,11 @@ class CameraDaemon : public ::testing::Test {
     }
 
     void start(const std::string& more = "") {
-        test::write_all(folder_ / "locusd.yaml", fmt::format(R"(site:
+        test::write_all(folder_ / "locusd.yaml",
+                        fmt::format(R"(site:
   name: hall
   anchors:
-    - {{name: A0, address: 0, position_site_m: [0, 0, 2.5]}}
-    - {{name: A1, address: 1, position_site_m: [10, 0, 2.0]}}
-    - {{name: A2, address: 2, position_site_m: [10, 8, 2.5]}}
-    - {{name: A3, address: 3, position_site_m: [0, 8, 1.0]}}
-inputs:
+{3}inputs:
   - {{name: tag, transport: pty, path: {0}/tag, decoder: trek1000, tag_offset: 16}}
 cameras:
   - {{name: gate, source: recorded, path: {0}/film, rate_hz: {1}, detector: motion, calibration: {0}/gate.yaml}}
@@ -115,7 +112,7 @@ targets:
 fusion: {{rate_hz: 50, lost_after_s: 1}}
 publish: {{socket: {0}/locusd.sock}}
 {2})",
-                                                             folder_.path(), picture_rate_hz, more));
+                                    folder_.path(), picture_rate_hz, more, tag_.anchors_yaml()));
         daemon_ = std::make_unique<test::DaemonProcess>(std::vector<std::string>{"--config", folder_ / "locusd.yaml"},
                                                         folder_ / "log");
     }
@@ -137,15 +134,8 @@ publish: {{socket: {0}/locusd.sock}}
     }
 
     void report() {
-        constexpr double anchors[4][3]{{0, 0, 2.5}, {10, 0, 2.0}, {10, 8, 2.5}, {0, 8, 1.0}};
         const Eigen::Vector2d at_m = walker_now_m();
-        uwb::TrekReport report;
-        report.mask = 0xf;
-        for (std::size_t i = 0; i < 4; ++i)
-            report.range_mm[i] = static_cast<std::int32_t>(
-                1000 * std::hypot(at_m.x() - anchors[i][0], at_m.y() - anchors[i][1], 1 - anchors[i][2]));
-        report.sequence = ++sequence_;
-        device_->send(encode(report));
+        device_->send(encode(tag_.report_at({at_m.x(), at_m.y(), 1})));
     }
 
     /// Looks until a pose of `target` satisfies `good`; `worn`: the tag reports meanwhile.
@@ -155,13 +145,8 @@ publish: {{socket: {0}/locusd.sock}}
         const bool came = eventually([&] {
             if (worn) report();
             std::this_thread::sleep_for(std::chrono::milliseconds{20});
-            client.say("?POLL;");
             bool found = false;
-            while (const auto line = client.line()) { // all of them: what is left would answer the next question
-                const auto object = nlohmann::json::parse(line.value(), nullptr, false);
-                if (object.value("class", "") == "POLL") break;
-                found = found || (object.value("class", "") == "POSE" && good(last = object));
-            }
+            for (const auto& pose : client.poll()) found = found || good(last = pose);
             return found;
         });
         return came ? testing::AssertionSuccess()
@@ -179,7 +164,7 @@ publish: {{socket: {0}/locusd.sock}}
     std::unique_ptr<test::FakeDevice> device_;
     std::unique_ptr<test::DaemonProcess> daemon_;
     std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> first_picture_;
-    std::uint8_t sequence_ = 0;
+    test::TrekTag tag_;
 };
 
 TEST_F(CameraDaemon, NamesWhomItSeesAndCarriesHimWhenHisTagFallsSilent) {

@@ -1,9 +1,9 @@
 // The daemon as its users meet it: bytes into a pseudo-terminal, poses out of the socket, and everything that goes
 // wrong on the way.
-#include "drivers/uwb/trek1000.h"
 #include "tests/support/daemon_process.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/socket_client.h"
+#include "tests/support/trek_tag.h"
 
 #include <sched.h>
 
@@ -32,18 +32,14 @@ class DaemonTest : public ::testing::Test {
         return fmt::format(R"(site:
   name: hall
   anchors:
-    - {{name: A0, address: 0, position_site_m: [0, 0, 2.5]}}
-    - {{name: A1, address: 1, position_site_m: [10, 0, 2.0]}}
-    - {{name: A2, address: 2, position_site_m: [10, 8, 2.5]}}
-    - {{name: A3, address: 3, position_site_m: [0, 8, 1.0]}}
-inputs:
+{}inputs:
   - {{name: tag, transport: pty, path: {}, decoder: trek1000, tag_offset: 16}}
 targets:
   - {{name: walker, address: 16}}
 fusion: {{rate_hz: {}}}
 publish: {{socket: {}}}
 {})",
-                           folder_ / "tag", rate_hz, socket_, more);
+                           tag_.anchors_yaml(), folder_ / "tag", rate_hz, socket_, more);
     }
 
     void start() {
@@ -51,16 +47,7 @@ publish: {{socket: {}}}
     }
 
     /// One report of a tag at (x, y, 1), as the device prints it.
-    void report(double x, double y) {
-        constexpr double anchors[4][3]{{0, 0, 2.5}, {10, 0, 2.0}, {10, 8, 2.5}, {0, 8, 1.0}};
-        uwb::TrekReport report;
-        report.mask = 0xf;
-        for (std::size_t i = 0; i < 4; ++i)
-            report.range_mm[i] =
-                static_cast<std::int32_t>(1000 * std::hypot(x - anchors[i][0], y - anchors[i][1], 1 - anchors[i][2]));
-        report.sequence = ++sequence_;
-        device_->send(encode(report));
-    }
+    void report(double x, double y) { device_->send(encode(tag_.report_at({x, y, 1}))); }
 
     /// Reports until the newest pose satisfies `good`.
     template <class Condition>
@@ -68,11 +55,8 @@ publish: {{socket: {}}}
         const bool done = eventually([&] {
             report(x, y);
             std::this_thread::sleep_for(std::chrono::milliseconds{20});
-            client.say("?POLL;");
-            const auto poll_or_pose = nlohmann::json::parse(client.line().value_or("{}"), nullptr, false);
-            if (poll_or_pose.value("class", "") != "POSE") return false;
-            client.next("POLL");
-            return good(poll_or_pose);
+            const auto poses = client.poll();
+            return !poses.empty() && good(poses.front());
         });
         return done ? testing::AssertionSuccess() : testing::AssertionFailure() << test::read_all(log_);
     }
@@ -98,7 +82,7 @@ publish: {{socket: {}}}
     std::string log_ = folder_ / "log";
     std::unique_ptr<test::FakeDevice> device_;
     std::unique_ptr<test::DaemonProcess> daemon_;
-    std::uint8_t sequence_ = 0;
+    test::TrekTag tag_;
 };
 
 TEST_F(DaemonTest, RangesGoInAndThePoseComesOut) {

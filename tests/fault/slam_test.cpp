@@ -2,25 +2,24 @@
 // unit and a clock of their own. Whoever carries both walks to and fro in curves; the pose tells what a unit is in
 // metres.
 #include "drivers/slam/tum.h"
-#include "drivers/uwb/trek1000.h"
 #include "fusion/geometry/rotation.h"
 #include "tests/support/daemon_process.h"
 #include "tests/support/socket_client.h"
 #include "tests/support/tcp_server.h"
+#include "tests/support/trek_tag.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
-#include <random>
 
 namespace locus {
 namespace {
 
 using test::SocketClient;
 
-constexpr std::array<std::array<double, 3>, 4> hall_anchors_m{{{0, 0, 3.5}, {20, 0, 0.5}, {20, 16, 3.5}, {0, 16, 0.5}}};
+constexpr test::TrekTag::Anchors hall_anchors_m{{{0, 0, 3.5}, {20, 0, 0.5}, {20, 16, 3.5}, {0, 16, 0.5}}};
 constexpr double range_noise_m = 0.05;
 constexpr double tracking_s = 0.04;       ///< so long the SLAM computes
 constexpr double slam_epoch_s = 1.3118e9; ///< its clock is not the host's
@@ -45,58 +44,34 @@ struct Map {
 class SlamDaemon : public ::testing::Test {
   protected:
     SlamDaemon() {
-        test::write_all(folder_ / "locusd.yaml",
-                        fmt::format(R"(site:
+        test::write_all(folder_ / "locusd.yaml", fmt::format(R"(site:
   name: hall
   anchors:
-    - {{name: A0, address: 0, position_site_m: [{}]}}
-    - {{name: A1, address: 1, position_site_m: [{}]}}
-    - {{name: A2, address: 2, position_site_m: [{}]}}
-    - {{name: A3, address: 3, position_site_m: [{}]}}
-inputs:
+{}inputs:
   - {{name: tag, transport: pty, path: {folder}/tag, decoder: trek1000, tag_offset: 16}}
   - {{name: slam, transport: tcp, host: 127.0.0.1, port: {port}, decoder: tum, tag: 16}}
 targets: [{{name: runner, address: 16, estimator: visual_scale}}]
 estimators: {{visual_scale: {{known_below: 0.05}}}}
 publish: {{socket: {folder}/locusd.sock}}
 )",
-                                    fmt::join(hall_anchors_m[0], ", "), fmt::join(hall_anchors_m[1], ", "),
-                                    fmt::join(hall_anchors_m[2], ", "), fmt::join(hall_anchors_m[3], ", "),
-                                    fmt::arg("folder", folder_.path()), fmt::arg("port", slam_.port())));
+                                                             tag_.anchors_yaml(), fmt::arg("folder", folder_.path()),
+                                                             fmt::arg("port", slam_.port())));
         daemon_ = std::make_unique<test::DaemonProcess>(std::vector<std::string>{"--config", folder_ / "locusd.yaml"},
                                                         folder_ / "log");
     }
 
     double now_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
-    void report() {
-        uwb::TrekReport report;
-        report.mask = 0xf;
-        const Eigen::Vector3d at_m = runner_m(now_s());
-        for (std::size_t i = 0; i < hall_anchors_m.size(); ++i) {
-            const auto& [x, y, z] = hall_anchors_m[i];
-            const double range_m = (at_m - Eigen::Vector3d(x, y, z)).norm() + range_noise_m * normal_(random_);
-            report.range_mm[i] = static_cast<std::int32_t>(std::lround(1000 * range_m));
-        }
-        report.sequence = ++sequence_;
-        device_.send(encode(report));
-    }
-
     /// Tag and SLAM go on until a pose of the runner is `good`.
     template <class Condition>
     testing::AssertionResult pose_comes(SocketClient& client, const Map& map, Condition good) {
         nlohmann::json last;
         const bool came = test::eventually([&] {
-            report();
+            device_.send(encode(tag_.report_at(runner_m(now_s()))));
             slam_.send(encode(map.pose(now_s() - tracking_s)));
             std::this_thread::sleep_for(std::chrono::milliseconds{30});
-            client.say("?POLL;");
             bool found = false;
-            while (const auto line = client.line()) { // all of them: what is left would answer the next question
-                const auto object = nlohmann::json::parse(line.value(), nullptr, false);
-                if (object.value("class", "") == "POLL") break;
-                found = found || (object.value("class", "") == "POSE" && good(last = object));
-            }
+            for (const auto& pose : client.poll()) found = found || good(last = pose);
             return found;
         });
         std::printf("after %.1f s: %s\n", now_s(), last.value("odometry_scale", nlohmann::json{}).dump().c_str());
@@ -114,14 +89,12 @@ publish: {{socket: {folder}/locusd.sock}}
         EXPECT_NEAR(scale["metres_per_unit"].get<double>() / metres_per_unit, 1, 0.05) << "one sigma at most";
     }
 
-    std::mt19937 random_{7};
-    std::normal_distribution<double> normal_;
+    test::TrekTag tag_{hall_anchors_m, range_noise_m};
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     test::TemporaryFolder folder_;
     test::FakeDevice device_{folder_ / "tag"};
     test::TcpServer slam_;
     std::unique_ptr<test::DaemonProcess> daemon_;
-    std::uint8_t sequence_ = 0;
 };
 
 TEST_F(SlamDaemon, TellsTheScaleOfASlamAndFindsItAnewAfterALoss) {

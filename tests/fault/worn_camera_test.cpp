@@ -1,9 +1,9 @@
 // A camera on the body, in the daemon: a folder of pictures of a walk through a drawn room is its device, a tag behind
 // a pseudo-terminal is worn by the same person. Visual odometry and ranges together tell what its unit is in metres.
-#include "drivers/uwb/trek1000.h"
 #include "tests/support/daemon_process.h"
 #include "tests/support/room/room_film.h"
 #include "tests/support/socket_client.h"
+#include "tests/support/trek_tag.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <random>
 
 namespace locus {
 namespace {
@@ -20,7 +19,7 @@ using test::SocketClient;
 
 constexpr double film_rate_hz = 12, film_s = 14;
 constexpr double wearer_noise_m = 0.05;
-constexpr std::array<std::array<double, 3>, 4> room_anchors_m{{{0, 0, 2.6}, {9, 0, 0.4}, {9, 7, 2.6}, {0, 7, 0.4}}};
+constexpr test::TrekTag::Anchors room_anchors_m{{{0, 0, 2.6}, {9, 0, 0.4}, {9, 7, 2.6}, {0, 7, 0.4}}};
 
 class WornCameraDaemon : public ::testing::Test {
   protected:
@@ -36,15 +35,10 @@ class WornCameraDaemon : public ::testing::Test {
                                     "{}\ncy_px: {}\nrotation_vector_rad: [0, 0, 0]\ntranslation_m: [0, 0, 0]\n",
                                     width, height, f, f, room::RoomScene::lens().centre_px.x(),
                                     room::RoomScene::lens().centre_px.y()));
-        test::write_all(folder_ / "locusd.yaml",
-                        fmt::format(R"(site:
+        test::write_all(folder_ / "locusd.yaml", fmt::format(R"(site:
   name: room
   anchors:
-    - {{name: A0, address: 0, position_site_m: [{}]}}
-    - {{name: A1, address: 1, position_site_m: [{}]}}
-    - {{name: A2, address: 2, position_site_m: [{}]}}
-    - {{name: A3, address: 3, position_site_m: [{}]}}
-inputs:
+{}inputs:
   - {{name: tag, transport: pty, path: {folder}/tag, decoder: trek1000, tag_offset: 16}}
 cameras:
   - {{name: body, source: recorded, path: {folder}/film, rate_hz: {rate}, worn_by: 16, calibration: {folder}/body.yaml}}
@@ -52,9 +46,8 @@ targets: [{{name: walker, address: 16, estimator: visual_scale}}]
 estimators: {{visual_scale: {{known_below: 0.1}}}}
 publish: {{socket: {folder}/locusd.sock}}
 )",
-                                    fmt::join(room_anchors_m[0], ", "), fmt::join(room_anchors_m[1], ", "),
-                                    fmt::join(room_anchors_m[2], ", "), fmt::join(room_anchors_m[3], ", "),
-                                    fmt::arg("folder", folder_.path()), fmt::arg("rate", film_rate_hz)));
+                                                             tag_.anchors_yaml(), fmt::arg("folder", folder_.path()),
+                                                             fmt::arg("rate", film_rate_hz)));
         daemon_ = std::make_unique<test::DaemonProcess>(std::vector<std::string>{"--config", folder_ / "locusd.yaml"},
                                                         folder_ / "log");
     }
@@ -81,39 +74,12 @@ publish: {{socket: {folder}/locusd.sock}}
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - first_picture_).count();
     }
 
-    void report() {
-        const Eigen::Vector3d at_m = walk_.at(now_s()).position_m;
-        uwb::TrekReport report;
-        report.mask = 0xf;
-        for (std::size_t i = 0; i < room_anchors_m.size(); ++i) {
-            const auto& [x, y, z] = room_anchors_m[i];
-            const double range_m = (at_m - Eigen::Vector3d(x, y, z)).norm() + wearer_noise_m * normal_(random_);
-            report.range_mm[i] = static_cast<std::int32_t>(std::lround(1000 * range_m));
-        }
-        report.sequence = ++sequence_;
-        device_.send(encode(report));
-    }
-
-    /// The newest pose of the walker; null when there is none.
-    static nlohmann::json pose_of(SocketClient& client) {
-        client.say("?POLL;");
-        nlohmann::json pose;
-        while (const auto line = client.line()) {
-            auto object = nlohmann::json::parse(line.value(), nullptr, false);
-            if (object.value("class", "") == "POLL") break;
-            if (object.value("class", "") == "POSE") pose = std::move(object);
-        }
-        return pose;
-    }
-
-    std::mt19937 random_{7};
-    std::normal_distribution<double> normal_;
+    test::TrekTag tag_{room_anchors_m, wearer_noise_m};
     const room::RoomWalk walk_;
     test::TemporaryFolder folder_;
     test::FakeDevice device_{folder_ / "tag"};
     std::unique_ptr<test::DaemonProcess> daemon_;
     std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> first_picture_;
-    std::uint8_t sequence_ = 0;
 };
 
 TEST_F(WornCameraDaemon, FindsTheScaleOfItsOwnOdometryAndUsesIt) {
@@ -124,10 +90,11 @@ TEST_F(WornCameraDaemon, FindsTheScaleOfItsOwnOdometryAndUsesIt) {
     double sum_m = 0, reached_s = 0;
     int poses = 0;
     while (now_s() < film_s - 0.5) {
-        report();
+        device_.send(encode(tag_.report_at(walk_.at(now_s()).position_m)));
         std::this_thread::sleep_for(std::chrono::milliseconds{50});
-        const auto pose = pose_of(client);
-        if (pose.is_null() || !pose.contains("odometry_scale")) continue;
+        const auto polled = client.poll();
+        if (polled.empty() || !polled.front().contains("odometry_scale")) continue;
+        const auto& pose = polled.front();
         if (!pose["odometry_scale"].contains("metres_per_unit")) continue;
         if (told.is_null()) reached_s = now_s();
         told = pose;

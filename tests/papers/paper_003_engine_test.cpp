@@ -156,11 +156,7 @@ class LiveCrowd {
 
     /// As daemon/radio/map_keeper.cpp does, here every ten seconds since the whole of it lasts two minutes.
     void learn() {
-        for (const radio::Lesson& lesson : engine_.take_lessons())
-            if (lesson.is_withdrawn)
-                map_.take_back(lesson.course);
-            else
-                map_.learn(lesson.course, {lesson.position_site_m[0], lesson.position_site_m[1]}, {&lesson.reading, 1});
+        for (const radio::Lesson& lesson : engine_.take_lessons()) map_.heed(lesson);
         if (frames_ % 20 != 0) return;
         auto next = map_grid(map_.map(), radio_settings().lost_share);
         radio_settings().grid->exchange(next);

@@ -75,6 +75,18 @@ class SocketClient {
         return say(command) ? next(class_name) : nlohmann::json::object();
     }
 
+    /// The newest pose of every target that has one. All lines are taken: what is left would answer the next question.
+    std::vector<nlohmann::json> poll() {
+        std::vector<nlohmann::json> poses;
+        say("?POLL;");
+        while (const auto text = line()) {
+            auto object = nlohmann::json::parse(*text, nullptr, false);
+            if (object.value("class", "") == "POLL") break;
+            if (object.value("class", "") == "POSE") poses.push_back(std::move(object));
+        }
+        return poses;
+    }
+
     /// Waits until the other side closes.
     bool sees_the_end() {
         while (fill()) buffer_.clear();

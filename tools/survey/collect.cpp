@@ -1,5 +1,6 @@
 #include "tools/survey/collect.h"
 
+#include "fusion/identity.h"
 #include "tools/evaluate/read.h"
 #include "tools/replay/recording.h"
 
@@ -7,11 +8,6 @@
 
 namespace locus::survey {
 namespace {
-
-radio::Reading reading_of(const SignalStrength& strength, const Site& site) {
-    const bool heard_at_anchor = site.find_anchor(strength.receiver) != nullptr;
-    return {heard_at_anchor ? strength.receiver : strength.transmitter, double{strength.rssi_dbm}};
-}
 
 const std::string& poses_of(const Request& request, std::size_t recording) {
     return request.poses.size() == 1 ? request.poses.front() : request.poses[recording];
@@ -35,8 +31,9 @@ Collected collect(const Request& request, const Settings& settings) {
         if (!request.poses.empty()) track = evaluate::read_estimate(poses_of(request, i));
         const auto take = [&](const Measurement& measurement, Timestamp) {
             const auto* strength = std::get_if<SignalStrength>(&measurement.observation);
-            if (strength != nullptr)
-                collector.add(reading_of(*strength, settings.engine.site), to_s(measurement.time), track);
+            if (strength == nullptr) return;
+            const radio::Reading reading{beacon_of(*strength, settings.engine.site), double{strength->rssi_dbm}};
+            collector.add(reading, to_s(measurement.time), track);
         };
         bad_lines += replay::read_recording(request.recordings[i], settings, take).bad_lines;
     }

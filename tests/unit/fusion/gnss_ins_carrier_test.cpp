@@ -56,16 +56,10 @@ struct CarrierCar {
     int samples_ = 0;
 };
 
-/// White and Gaussian as simulated: no weight, no gate, no wandering error.
+/// With a gate that a slip of one cycle meets, and chance does not.
 GnssInsSettings plain_settings() {
-    GnssInsSettings settings;
-    settings.robust_scale = 1e6;
+    GnssInsSettings settings = test::exact_settings();
     settings.gate_false_alarm = 1e-9;
-    settings.satellite_error_sigma_m = 0;
-    settings.acceleration_bias_sigma_mps2 = 0.05;
-    settings.angular_rate_bias_sigma_radps = 0.002;
-    settings.acceleration_bias_walk_mps2_rts = settings.angular_rate_bias_walk_radps_rts = 0;
-    settings.non_holonomic = settings.zero_velocity = false;
     return settings;
 }
 

@@ -12,18 +12,7 @@
 namespace locus {
 namespace {
 
-/// The noise of the simulation is Gaussian and white: then no weight, no gate and no wandering error is the optimum.
-GnssInsSettings exact_settings() {
-    GnssInsSettings settings;
-    settings.robust_scale = 1e6;
-    settings.gate_false_alarm = 1e-12;
-    settings.satellite_error_sigma_m = 0;
-    settings.acceleration_bias_sigma_mps2 = 0.05;
-    settings.angular_rate_bias_sigma_radps = 0.002;
-    settings.acceleration_bias_walk_mps2_rts = settings.angular_rate_bias_walk_radps_rts = 0;
-    settings.non_holonomic = settings.zero_velocity = false;
-    return settings;
-}
+using test::exact_settings;
 
 struct Car {
     Site site;

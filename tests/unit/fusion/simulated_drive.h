@@ -2,6 +2,7 @@
 // its GNSS receiver, its wheels and its UWB tag would give, with the Earth's turning and gravity in it.
 #pragma once
 
+#include "fusion/estimators/gnss_ins_settings.h"
 #include "fusion/geometry/earth.h"
 #include "fusion/geometry/rotation.h"
 #include "fusion/inertial/ecef_strapdown.h"
@@ -199,5 +200,18 @@ class SimulatedDrive {
     std::array<double, 16> ambiguity_m_{}, locked_s_{};
     std::uint32_t sequence_ = 0;
 };
+
+/// The noise of the simulation is Gaussian and white: then no weight, no gate and no wandering error is the optimum.
+inline GnssInsSettings exact_settings() {
+    GnssInsSettings settings;
+    settings.robust_scale = 1e6;
+    settings.gate_false_alarm = 1e-12;
+    settings.satellite_error_sigma_m = 0;
+    settings.acceleration_bias_sigma_mps2 = 0.05;
+    settings.angular_rate_bias_sigma_radps = 0.002;
+    settings.acceleration_bias_walk_mps2_rts = settings.angular_rate_bias_walk_radps_rts = 0;
+    settings.non_holonomic = settings.zero_velocity = false;
+    return settings;
+}
 
 } // namespace locus::test
