@@ -129,6 +129,10 @@ Verdict GnssIns::take_fix(const GnssFix& fix) noexcept {
 
 // ---- the update
 
+/// Without an inertial sensor a receiver's velocity that comes as a surprise is a vehicle that brakes: to weigh it less
+/// would be to run on.
+bool GnssIns::tells_of_a_manoeuvre(Aid aid) const noexcept { return aid == Aid::fix_velocity && !track_.is_inertial(); }
+
 Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate) noexcept {
     const auto at = static_cast<std::size_t>(aid);
     const bool learns = settings().adaptive_noise && aid <= Aid::fix_velocity;
@@ -147,7 +151,7 @@ Verdict GnssIns::weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate)
         return verdict;
     }
     if (learns) noise_[at].learn(scalar.innovation, prediction.state_variance, scalar.variance);
-    const filter::Share share = robust_[at].weigh(in_sigma);
+    const filter::Share share = tells_of_a_manoeuvre(aid) ? filter::Share{} : robust_[at].weigh(in_sigma);
     verdict.weight = static_cast<float>(share.step);
     track_.correct(prediction, scalar.innovation, variance, share);
     return verdict;

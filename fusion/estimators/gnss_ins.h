@@ -79,6 +79,7 @@ class GnssIns final : public Estimator {
     Verdict start(const GnssInsStart& start, Timestamp time) noexcept;
     Verdict start_at(const GnssFix& fix, Timestamp time) noexcept;
     void move_to(Timestamp time) noexcept;
+    bool tells_of_a_manoeuvre(Aid aid) const noexcept;
     Verdict weigh(Aid aid, const GnssInsScalar& scalar, filter::Gate& gate) noexcept;
     /// `memory`: observations of this kind over which the share of refused ones is taken.
     void note(const Verdict& verdict, Timestamp time, double memory) noexcept;
