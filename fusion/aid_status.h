@@ -53,6 +53,8 @@ enum class Exclusion : std::uint8_t {
     unknown_beacon,
     base_without_place,
     nothing_to_correct,
+    no_attitude,
+    wrong_baseline,
     count_
 };
 
@@ -105,6 +107,8 @@ inline constexpr std::array<ExclusionText, exclusion_count> exclusion_texts{{
     {"unknown_beacon", "it is neither in the radio map nor, where there is none, among the anchors of the site"},
     {"base_without_place", "the base station has not told yet where it stands (RTCM 1005 or 1006)"},
     {"nothing_to_correct", "no receiver's raw observations have come since that it could correct"},
+    {"no_attitude", "no inertial sensor has shown for a second which way is down, which a heading needs"},
+    {"wrong_baseline", "its two antennas are not as far apart as the settings say: its carrier cycles are miscounted"},
 }};
 
 constexpr std::string_view exclusion_name(Exclusion reason) {
@@ -151,7 +155,7 @@ inline Verdict kept_out(Verdict verdict, Exclusion reason = Exclusion::innovatio
     return verdict;
 }
 
-enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag, base };
+enum class SourceKind : std::uint8_t { anchor, camera, satellite, beacon, imu, vehicle, input, tag, base, heading };
 
 /// received = used + refused + late + those still waiting for their tick.
 struct AidCounters {

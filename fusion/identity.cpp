@@ -46,6 +46,7 @@ struct WhomItConcerns {
     Deliveries operator()(const GnssRaw& o) const { return one(o.tag, SourceKind::satellite, satellite_address(o)); }
     Deliveries operator()(const WheelSpeed& o) const { return one(o.tag, SourceKind::vehicle, o.tag); }
     Deliveries operator()(const Pressure& o) const { return one(o.tag, SourceKind::input, this_input()); }
+    Deliveries operator()(const Heading& o) const { return one(o.tag, SourceKind::heading, o.tag); }
     Deliveries operator()(const SignalStrength& o) const {
         const Address beacon = beacon_of(o, site);
         return one(beacon == o.receiver ? o.transmitter : o.receiver, SourceKind::beacon, beacon);
@@ -89,6 +90,7 @@ struct NumbersAreFinite {
     }
     bool operator()(const WheelSpeed& o) const { return std::isfinite(o.speed_mps); }
     bool operator()(const Pressure& o) const { return std::isfinite(o.pressure_pa); }
+    bool operator()(const Heading& o) const { return std::isfinite(o.heading_deg); }
     bool operator()(const SignalStrength& o) const { return std::isfinite(o.rssi_dbm); }
     bool operator()(const GnssNavigation&) const { return true; }
     bool operator()(const Height& o) const { return std::isfinite(o.height_site_m); }
@@ -107,6 +109,7 @@ struct ShownValue {
     double operator()(const GnssBaseRange& o) const { return o.pseudorange_m; }
     double operator()(const WheelSpeed& o) const { return o.speed_mps; }
     double operator()(const Pressure& o) const { return o.pressure_pa; }
+    double operator()(const Heading& o) const { return o.heading_deg; }
     double operator()(const Height& o) const { return o.height_site_m; }
     double operator()(const SignalStrength& o) const { return static_cast<double>(o.rssi_dbm); }
     template <class Other>

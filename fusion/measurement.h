@@ -209,6 +209,14 @@ struct GnssBaseRange {
     std::uint8_t glonass_slot = 7; ///< frequency number + 7
 };
 
+/// Where the line from a vehicle's first GNSS antenna to its second one points, as the receiver of both tells.
+struct Heading {
+    Address tag = no_address;
+    double heading_deg = 0; ///< on the level, clockwise from true north
+    float sigma_deg = unknown_f;
+    float baseline_m = unknown_f; ///< how far the two are apart by the same measurement
+};
+
 struct WheelSpeed {
     Address tag = no_address;
     double speed_mps = 0;
@@ -241,13 +249,15 @@ struct SignalStrength {
 
 using Observation =
     std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
-                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange, GnssBaseRange>;
+                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange, GnssBaseRange,
+                 Heading>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
     "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",      "PEER_RANGE",     "IMU",
     "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",        "WHEEL_SPEED",    "PRESSURE",
-    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE", "GNSS_BASE_RANGE"};
+    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE", "GNSS_BASE_RANGE",
+    "HEADING"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

@@ -14,9 +14,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 9> source_kind_names{"anchor",  "camera", "satellite", "beacon", "imu",
-                                                            "vehicle", "input",  "tag",       "base"};
-static_assert(source_kind_names.size() == static_cast<std::size_t>(SourceKind::base) + 1);
+constexpr std::array<std::string_view, 10> source_kind_names{"anchor",  "camera", "satellite", "beacon", "imu",
+                                                            "vehicle", "input",  "tag",       "base",    "heading"};
+static_assert(source_kind_names.size() == static_cast<std::size_t>(SourceKind::heading) + 1);
 
 /// One line; names that are not UTF-8 are mended, never thrown over.
 std::string line(const ordered_json& object) {

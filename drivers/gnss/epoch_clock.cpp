@@ -4,8 +4,7 @@ namespace locus::gnss {
 
 Timestamp EpochClock::host_time(std::int64_t told_ns, Timestamp received) {
     const std::int64_t step_ns = begun_ ? since_last_ns(told_ns) : 0;
-    // A little back is no jump: another message of the same epoch.
-    if (step_ns < 0 && step_ns >= -same_epoch_ns) return said_ + Duration{step_ns};
+    if (step_ns < 0 && step_ns >= -overtaken_ns) return said_ + Duration{step_ns};
     begun_ = true;
     told_ns_ = told_ns;
     count_ns_ += static_cast<std::uint64_t>(step_ns);

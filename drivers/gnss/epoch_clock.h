@@ -14,9 +14,10 @@ namespace locus::gnss {
 class EpochClock {
   public:
     static constexpr std::int64_t week_ns = 604'800'000'000'000, day_ns = 86'400'000'000'000;
-    /// One epoch's messages may tell it by the receiver's own clock and by GPS time: receivers of u-blox keep theirs
-    /// within a few milliseconds.
-    static constexpr std::int64_t same_epoch_ns = 20'000'000;
+    /// So much back is no jump: one epoch's messages may tell it by the receiver's own clock and by GPS time, and what
+    /// waits for another receiver (the heading of two) comes when the next epoch's fix has overtaken it. Receivers that
+    /// set their time do it by whole seconds, or by a millisecond.
+    static constexpr std::int64_t overtaken_ns = 250'000'000;
 
     /// `period_ns`: after so much the told time begins anew.
     explicit EpochClock(std::int64_t period_ns) : period_ns_{period_ns} {}

@@ -42,6 +42,8 @@ class Nmea : public LineDecoder {
         if (sentence.type == "VTG") return add(parse_vtg(sentence), text, begun, sink);
         if (sentence.type == "GST") return add(parse_gst(sentence), text, begun, sink);
         if (sentence.type == "ZDA") return add(parse_zda(sentence), text, begun, sink);
+        if (sentence.type == "HDT") return point(parse_hdt(sentence), text, begun, sink);
+        if (sentence.type == "THS") return point(parse_ths(sentence), text, begun, sink);
         sink.frame(wire::bytes_of(text));
     }
 
@@ -55,6 +57,17 @@ class Nmea : public LineDecoder {
         }
         epoch_.add(*message);
         if (wanted_ != 0 && (epoch_.kinds() & wanted_) == wanted_) give(sink);
+    }
+
+    template <class Message>
+    void point(const std::optional<Message>& message, std::string_view text, Timestamp begun, MeasurementSink& sink) {
+        if (!message) return sink.refuse(Refusal::malformed);
+        sink.frame(wire::bytes_of(text));
+        if constexpr (requires { message->mode; })
+            if (message->mode != 'A') return;
+        if (std::isnan(message->heading_deg)) return;
+        if (message->heading_deg < 0 || message->heading_deg > 360) return sink.refuse(Refusal::out_of_range);
+        sink.accept(begun, Heading{settings_.tag, message->heading_deg});
     }
 
     void begin(std::int64_t time_us, Timestamp begun, MeasurementSink& sink) {

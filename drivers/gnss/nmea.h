@@ -3,6 +3,8 @@
 // sentence are there that came in the moment before, or when the next moment begins. It is dated by the time of day
 // that its sentences tell, brought to the host's clock (epoch_clock.h); where use_receiver_time is false, its time is
 // when the first of its sentences began to come in. No velocity upwards is told, so it is 0.
+//
+// HDT and THS give a Heading of their own. They tell no time, so they are dated by their reception.
 #pragma once
 
 #include "drivers/decoder.h"
@@ -28,7 +30,8 @@ inline constexpr std::array nmea_options{
         "Where there is no GST: the horizontal sigma is this times the dilution of precision."),
 };
 
-/// One GnssFix a moment with a GGA that has a fix (quality 1 to 6, or 8) and an altitude.
+/// One GnssFix a moment with a GGA that has a fix (quality 1 to 6, or 8) and an altitude, a Heading for each HDT and
+/// each THS that is measured (A).
 std::unique_ptr<Decoder> make_nmea(const void* settings);
 
 } // namespace locus::gnss

@@ -115,6 +115,14 @@ std::optional<Hdt> parse_hdt(const Sentence& sentence) {
     return if_good(fields, hdt);
 }
 
+std::optional<Ths> parse_ths(const Sentence& sentence) {
+    Fields fields{sentence};
+    Ths ths;
+    ths.heading_deg = fields.number(1);
+    ths.mode = fields.letter(2);
+    return if_good(fields, ths);
+}
+
 std::string encode(const Gga& gga) {
     Body body{"GNGGA"};
     body.time(gga.time_us).angle(gga.latitude_deg, 2, "N", "S").angle(gga.longitude_deg, 3, "E", "W");
@@ -153,5 +161,8 @@ std::string encode(const Zda& zda) {
 }
 
 std::string encode(const Hdt& hdt) { return Body{"GNHDT"}.number(hdt.heading_deg).text("T").line(); }
+std::string encode(const Ths& ths) {
+    return Body{"GNTHS"}.number(ths.heading_deg).text({&ths.mode, ths.mode == 0 ? 0u : 1u}).line();
+}
 
 } // namespace locus::gnss::nmea

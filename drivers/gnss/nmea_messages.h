@@ -49,6 +49,12 @@ struct Hdt {
     double heading_deg = not_told; ///< true, clockwise from north
 };
 
+/// The same with its status.
+struct Ths {
+    double heading_deg = not_told; ///< true, clockwise from north
+    char mode = 0;                 ///< A: measured; E estimated, M told by hand, S simulated, V: not valid
+};
+
 /// Time and date.
 struct Zda {
     std::int64_t time_us = no_time;
@@ -62,6 +68,7 @@ std::optional<Vtg> parse_vtg(const Sentence& sentence);
 std::optional<Gst> parse_gst(const Sentence& sentence);
 std::optional<Zda> parse_zda(const Sentence& sentence);
 std::optional<Hdt> parse_hdt(const Sentence& sentence);
+std::optional<Ths> parse_ths(const Sentence& sentence);
 
 /// Whole lines with checksum and "\r\n", angles to 1e-7 minutes, other numbers to a thousandth. A
 /// time of day beyond the last second is in a leap second.
@@ -71,5 +78,6 @@ std::string encode(const Vtg& vtg);
 std::string encode(const Gst& gst);
 std::string encode(const Zda& zda);
 std::string encode(const Hdt& hdt);
+std::string encode(const Ths& ths);
 
 } // namespace locus::gnss::nmea

@@ -14,8 +14,11 @@ namespace {
 
 using namespace ubx;
 
+constexpr std::int64_t ns_per_ms = 1'000'000;
 constexpr std::int32_t quarter_turn_1e7_deg = 900'000'000;
+constexpr double whole_turn_deg = 360;
 constexpr std::uint8_t time_only = 5;
+constexpr std::size_t relative_length_of_m8p = 40; // version 0, which tells no heading
 constexpr double week_s = 604800;
 constexpr double farthest_m = 1e8; // twice the way to a geostationary satellite
 
@@ -48,6 +51,23 @@ GnssFix fix_of(const NavPvt& pvt, Address tag) {
     fix.satellites = pvt.satellites;
     return fix;
 }
+
+/// A line to a base station far off is no heading of a vehicle, and one whose cycles are not settled points anywhere.
+bool tells_heading(const RelativePosition& relative) {
+    return relative.fix_ok() && relative.way_valid() && relative.base_moves() && relative.heading_valid() &&
+           relative.carrier_solution() == 2;
+}
+
+Heading heading_of(const RelativePosition& relative, Address tag) {
+    Heading heading;
+    heading.tag = tag;
+    heading.heading_deg = relative.heading_1e5_deg * 1e-5;
+    heading.sigma_deg = static_cast<float>(relative.sigma_heading_1e5_deg * 1e-5);
+    heading.baseline_m = static_cast<float>(relative.length_cm * 1e-2 + relative.length_rest_1e4_m * 1e-4);
+    return heading;
+}
+
+bool possible(const Heading& heading) { return heading.heading_deg >= 0 && heading.heading_deg <= whole_turn_deg; }
 
 bool possible(const RawEpoch& epoch) {
     return epoch.receiver_time_s >= -1 && epoch.receiver_time_s <= week_s + 1; // its clock may be off by a little
@@ -110,6 +130,9 @@ class Ubx : public FrameDecoder<ubx::Format> {
         switch (message_id(frame.bytes)) {
         case NavPvt::id:
             return whole(parse_nav_pvt(payload), frame, sink);
+        case RelativePosition::id:
+            if (payload.size() == relative_length_of_m8p) return sink.frame(frame.bytes);
+            return whole(parse_relative_position(payload), frame, sink);
         case RawEpoch::id:
             return whole(parse_raw_epoch(payload), frame, sink);
         case Subframe::id:
@@ -130,9 +153,13 @@ class Ubx : public FrameDecoder<ubx::Format> {
 
     /// A time that the receiver itself does not hold valid would make the clock begin anew.
     Timestamp time_of(const NavPvt& pvt, const Frame& frame) {
-        constexpr std::int64_t ns_per_ms = 1'000'000;
         if (!use_receiver_time_ || !pvt.time_valid()) return frame.begun;
         return clock_.host_time(pvt.time_of_week_ms * ns_per_ms, frame.begun);
+    }
+
+    Timestamp time_of(const RelativePosition& relative, const Frame& frame) {
+        if (!use_receiver_time_) return frame.begun;
+        return clock_.host_time(relative.time_of_week_ms * ns_per_ms, frame.begun);
     }
 
     Timestamp time_of(const RawEpoch& epoch, const Frame& frame) {
@@ -144,6 +171,13 @@ class Ubx : public FrameDecoder<ubx::Format> {
         if (!pvt.fix_ok() || pvt.position_invalid() || pvt.fix_type == 0 || pvt.fix_type >= time_only) return;
         if (!possible(pvt)) return sink.refuse(Refusal::out_of_range);
         sink.accept(time_of(pvt, frame), fix_of(pvt, tag_));
+    }
+
+    void give(const RelativePosition& relative, const Frame& frame, MeasurementSink& sink) {
+        if (!tells_heading(relative)) return;
+        const Heading heading = heading_of(relative, tag_);
+        if (!possible(heading)) return sink.refuse(Refusal::out_of_range);
+        sink.accept(time_of(relative, frame), heading);
     }
 
     void give(const RawEpoch& epoch, const Frame& frame, MeasurementSink& sink) {

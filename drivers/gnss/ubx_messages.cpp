@@ -57,6 +57,13 @@ void walk_fields(Walk& walk, Message& m) {
     walk(m.declination_1e2_deg, m.sigma_declination_1e2_deg);
 }
 
+template <class Walk, Either<RelativePosition> Message>
+void walk_fields(Walk& walk, Message& m) {
+    walk(m.version, m.reserved, m.base, m.time_of_week_ms, m.way_ned_cm, m.length_cm, m.heading_1e5_deg, m.reserved2);
+    walk(m.way_rest_ned_1e4_m, m.length_rest_1e4_m, m.sigma_ned_1e4_m, m.sigma_length_1e4_m);
+    walk(m.sigma_heading_1e5_deg, m.reserved3, m.flags);
+}
+
 template <class Walk, Either<RawEpoch> Message>
 void walk_fields(Walk& walk, Message& m) {
     walk(m.receiver_time_s, m.gps_week, m.leap_s, m.signals, m.status, m.version, m.reserved);
@@ -83,6 +90,7 @@ void walk_fields(Walk& walk, Message& m) {
 }
 
 constexpr std::size_t pvt_length = 92;
+constexpr std::size_t relative_length = 64;
 constexpr std::size_t epoch_length = 16;
 constexpr std::size_t signal_length = 32;
 constexpr std::size_t words_begin = 8; // of a subframe, and of a sensor report
@@ -109,6 +117,11 @@ std::optional<NavPvt> parse_nav_pvt(wire::Bytes payload) {
     return read_at<NavPvt>(payload, 0);
 }
 
+std::optional<RelativePosition> parse_relative_position(wire::Bytes payload) {
+    if (payload.size() != relative_length) return std::nullopt;
+    return read_at<RelativePosition>(payload, 0);
+}
+
 std::optional<RawEpoch> parse_raw_epoch(wire::Bytes payload) {
     const auto epoch = read_at<RawEpoch>(payload, 0);
     if (payload.size() != epoch_length + signal_length * epoch.signals) return std::nullopt;
@@ -133,6 +146,7 @@ std::optional<SensorReport> parse_sensor_report(wire::Bytes payload) {
 }
 
 std::vector<std::uint8_t> encode(const NavPvt& pvt) { return framed(pvt); }
+std::vector<std::uint8_t> encode(const RelativePosition& relative) { return framed(relative); }
 std::vector<std::uint8_t> encode(const Subframe& subframe) { return framed(subframe); }
 std::vector<std::uint8_t> encode(const SensorReport& report) { return framed(report); }
 

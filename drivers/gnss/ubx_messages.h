@@ -53,6 +53,35 @@ struct NavPvt {
     bool position_invalid() const { return flags3 & 1; }
 };
 
+/// NAV-RELPOSNED, version 1: the way from another antenna to this receiver's. The other is that of a base station, or
+/// (moving base) sits on the same vehicle.
+struct RelativePosition {
+    static constexpr MessageId id = 0x013C;
+
+    std::uint8_t version = 1;
+    std::uint8_t reserved = 0;
+    std::uint16_t base = 0;
+    std::uint32_t time_of_week_ms = 0;
+    std::array<std::int32_t, 3> way_ned_cm{};
+    std::int32_t length_cm = 0;
+    std::int32_t heading_1e5_deg = 0;
+    std::uint32_t reserved2 = 0;
+    std::array<std::int8_t, 3> way_rest_ned_1e4_m{}; ///< to be added
+    std::int8_t length_rest_1e4_m = 0;
+    std::array<std::uint32_t, 3> sigma_ned_1e4_m{};
+    std::uint32_t sigma_length_1e4_m = 0;
+    std::uint32_t sigma_heading_1e5_deg = 0;
+    std::uint32_t reserved3 = 0;
+    std::uint32_t flags = 0;
+
+    bool operator==(const RelativePosition&) const = default;
+    bool fix_ok() const { return flags & 1; }
+    bool way_valid() const { return flags & 4; }
+    unsigned carrier_solution() const { return flags >> 3 & 3; } ///< 1 float, 2 fixed
+    bool base_moves() const { return flags & 32; }
+    bool heading_valid() const { return flags & 256; }
+};
+
 /// RXM-RAWX: head of an epoch of raw measurements.
 struct RawEpoch {
     static constexpr MessageId id = 0x0215;
@@ -125,6 +154,7 @@ struct SensorReport {
 
 /// Each reads the payload of its message; empty when the length does not fit, also to a count that stands inside.
 std::optional<NavPvt> parse_nav_pvt(wire::Bytes payload);
+std::optional<RelativePosition> parse_relative_position(wire::Bytes payload);
 std::optional<RawEpoch> parse_raw_epoch(wire::Bytes payload);
 /// `index` below the signals of an epoch that parse_raw_epoch() accepted.
 RawSignal parse_raw_signal(wire::Bytes payload, std::size_t index);
@@ -133,6 +163,7 @@ std::optional<SensorReport> parse_sensor_report(wire::Bytes payload);
 
 /// Whole frames.
 std::vector<std::uint8_t> encode(const NavPvt& pvt);
+std::vector<std::uint8_t> encode(const RelativePosition& relative);
 /// `signals`: at most 255; their number takes the place of epoch.signals.
 std::vector<std::uint8_t> encode(RawEpoch epoch, std::span<const RawSignal> signals);
 std::vector<std::uint8_t> encode(const Subframe& subframe);

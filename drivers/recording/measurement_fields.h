@@ -152,6 +152,14 @@ void visit_fields(Visitor& visit, Kind& range) {
     visit.must("glonass_slot", range.glonass_slot);
 }
 
+template <class Visitor, Of<Heading> Kind>
+void visit_fields(Visitor& visit, Kind& heading) {
+    visit.must("tag", heading.tag);
+    visit.must("heading_deg", heading.heading_deg);
+    visit.may("sigma_deg", heading.sigma_deg);
+    visit.may("baseline_m", heading.baseline_m);
+}
+
 template <class Visitor, Of<WheelSpeed> Kind>
 void visit_fields(Visitor& visit, Kind& wheel) {
     visit.must("tag", wheel.tag);

@@ -1,5 +1,5 @@
 // The vehicles' estimator: GNSS and an inertial sensor, loosely (fixes) or tightly (each satellite's range and rate, of
-// use from the first satellite on), with wheels, barometer, standstill and UWB ranges beside them (paper 002; Groves
+// use from the first satellite on), with wheels, barometer, the heading of two antennas, standstill and UWB ranges beside them (paper 002; Groves
 // 2013, chapters 14 and 15). The state is in ECEF, the pose in the site's frame, which must have an origin.
 #pragma once
 
@@ -43,6 +43,7 @@ class GnssIns final : public Estimator {
         pressure,
         range,
         carrier,
+        heading,
         count_
     };
     /// Share of refused observations from which on the filter may be lost.
@@ -55,6 +56,7 @@ class GnssIns final : public Estimator {
     Verdict take(const Range& range, Timestamp time) noexcept;
     Verdict take(const WheelSpeed& wheel, Timestamp time) noexcept;
     Verdict take(const Pressure& pressure, Timestamp time) noexcept;
+    Verdict take(const Heading& heading, Timestamp time) noexcept;
     template <class Other>
     Verdict take(const Other&, Timestamp) noexcept {
         return {Exclusion::unsupported_kind};
@@ -71,6 +73,8 @@ class GnssIns final : public Estimator {
     std::size_t changes(CarrierEquations& equations, CarrierOwners& whose) noexcept;
     bool take_change(const gnss::CarrierSight& now) noexcept;
     Verdict take_fix(const GnssFix& fix) noexcept;
+    bool is_wrong_baseline(const Heading& heading) const noexcept;
+    bool begin_inertial_towards(const Heading& heading) noexcept;
     bool height_is_off(const GnssFix& fix) noexcept;
     void stand() noexcept;
     void hold_to_the_road() noexcept;
@@ -119,7 +123,8 @@ std::unique_ptr<Estimator> make_gnss_ins(const Site& site, const void* settings)
 
 inline constexpr EstimatorRow gnss_ins_row{
     "gnss_ins",
-    "Vehicles: satellites or fixes with an inertial sensor, wheels, barometer and UWB ranges; needs site.origin.",
+    "Vehicles: satellites or fixes with an inertial sensor, wheels, barometer, the heading of two antennas and UWB "
+    "ranges; needs site.origin.",
     option_table<GnssInsSettings>(gnss_ins_options), make_gnss_ins, true};
 
 } // namespace locus

@@ -64,6 +64,9 @@ class GnssInsObservations {
     GnssInsScalar standing(const GnssInsTrack& track, int axis) const noexcept;
     GnssInsScalar standing_rate(const GnssInsTrack& track, int axis) const noexcept;
     GnssInsScalar pressure(GnssInsTrack& track, const Pressure& pressure) const noexcept;
+    /// Of the line between two antennas, in degrees; which way it points in the vehicle is a state. The track has an
+    /// attitude.
+    GnssInsScalar heading(GnssInsTrack& track, const Heading& heading) const noexcept;
 
     /// Height over the ellipsoid that the barometer shows, its learnt offset taken out; none before it was learnt.
     std::optional<double> height_by_pressure_m(GnssInsTrack& track, const Pressure& pressure) const noexcept;

@@ -12,6 +12,9 @@
 //   like those. What orbit, clock and air drift from one epoch to the next: 3 mm/s (GPS SPS performance standard 2020,
 //   table 3.4-2: user range rate error 6 mm/s, 95 %).
 // - receiver clock: TCXO (Groves 2013, section 9.4.2: 0.04 m^2/s^3).
+// - two antennas: u-blox ZED-F9P data sheet, 0.4 deg with antennas 1 m apart. Reflections move a fixed carrier's
+//   antenna by some 5 mm for as long as the geometry is the same, a minute: 0.3 deg of a metre. Brackets that were
+//   laid out by eye are off by a degree.
 // - wheels: a speed that may be off by a twentieth (tyres); side slip and the road's unevenness 0.2 m/s.
 // - barometer: 1 hPa of weather in an hour is 8 m; gusts and vents 1 m.
 #pragma once
@@ -74,6 +77,14 @@ struct GnssInsSettings {
     double pressure_error_sigma_m = 10;
     double pressure_error_time_s = 3600;
     double refuse_fix_height_m = 0;
+
+    bool use_heading = true;
+    double heading_mounting_deg = 0;
+    double heading_mounting_sigma_deg = 1;
+    double heading_baseline_m = 0;
+    double heading_sigma_deg = 0.5;
+    double heading_error_sigma_deg = 0.3;
+    double heading_error_time_s = 60;
 
     double range_sigma_m = 0.1;
     double range_error_sigma_m = 0.2;
@@ -184,6 +195,22 @@ inline constexpr std::array gnss_ins_options{
     option<&GnssInsSettings::refuse_fix_height_m>(
         "refuse_fix_height_m", "m", 0, 1000,
         "Fixes whose height is off by this from the barometer's are refused (paper 002: 6); 0: none."),
+    option<&GnssInsSettings::use_heading>("use_heading", "Whether the heading of two GNSS antennas is used."),
+    option<&GnssInsSettings::heading_mounting_deg>(
+        "heading_mounting_deg", "deg", -360, 360,
+        "Where the second antenna lies, seen from the first: 0 ahead, 90 left, 180 behind. 0 too where the receiver has "
+        "been told already."),
+    option<&GnssInsSettings::heading_mounting_sigma_deg>("heading_mounting_sigma_deg", "deg", 0, 45,
+                                                         "How far that may be off; found on the way."),
+    option<&GnssInsSettings::heading_baseline_m>(
+        "heading_baseline_m", "m", 0, 100,
+        "Distance of the two antennas: headings whose own differs by over 0.05 m are refused; 0: none."),
+    option<&GnssInsSettings::heading_sigma_deg>("heading_sigma_deg", "deg", 0.001, 90,
+                                                "Noise of a heading whose device states none."),
+    option<&GnssInsSettings::heading_error_sigma_deg>("heading_error_sigma_deg", "deg", 0, 90,
+                                                      "Error of headings that stays for a while."),
+    option<&GnssInsSettings::heading_error_time_s>("heading_error_time_s", "s", 0.01, 1e6,
+                                                   "Time in which that error becomes another one."),
     option<&GnssInsSettings::range_sigma_m>("range_sigma_m", "m", 0.001, 100,
                                             "Noise of a UWB range whose device and anchor state none."),
     option<&GnssInsSettings::range_error_sigma_m>("range_error_sigma_m", "m", 0, 100,

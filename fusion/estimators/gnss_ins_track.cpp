@@ -171,12 +171,22 @@ void GnssInsTrack::begin_inertial_if_fast() noexcept {
 }
 
 void GnssInsTrack::begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept {
+    const Eigen::Vector3d course = enu_to_ecef(geodetic(position_m())).transpose() * course_ecef;
+    begin_inertial(std::atan2(course.y(), course.x()), course.norm(), heading_sigma_rad);
+}
+
+bool GnssInsTrack::begin_inertial_towards(double forward_from_east_rad, double heading_sigma_rad) noexcept {
+    if (!sensed_ || !levelling_.is_level()) return false;
+    begin_inertial(forward_from_east_rad, velocity_ecef_mps().norm(), heading_sigma_rad);
+    return true;
+}
+
+void GnssInsTrack::begin_inertial(double forward_from_east_rad, double speed_mps, double heading_sigma_rad) noexcept {
     const Eigen::Matrix3d enu = enu_to_ecef(geodetic(position_m()));
-    const Eigen::Vector3d course = enu.transpose() * course_ecef;
-    const double turn = std::atan2(course.y(), course.x()) - heading_rad(levelling_.body_to_level());
+    const double turn = forward_from_east_rad - heading_rad(levelling_.body_to_level());
     const Eigen::Quaterniond heading(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
     body_to_ecef_ = (Eigen::Quaterniond(enu) * heading * levelling_.body_to_level()).normalized();
-    const double tilt = levelling_.tilt_sigma_rad(course.norm(), model_.acceleration_bias_sigma_mps2);
+    const double tilt = levelling_.tilt_sigma_rad(speed_mps, model_.acceleration_bias_sigma_mps2);
     const Eigen::Vector3d variances(variance_of(tilt), variance_of(tilt), variance_of(heading_sigma_rad));
     const Eigen::Matrix3d attitude = enu * variances.asDiagonal() * enu.transpose();
     for (int i = 0; i < 3; ++i)

@@ -55,6 +55,8 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 40> {
     void move_by(const Vector& error) noexcept;
     /// Makes the attitude known at once: the forward axis along `course_ecef`, tilt as levelled.
     void begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept;
+    /// The same with the forward axis that way on the level, counter-clockwise from east, if which way is down is known.
+    bool begin_inertial_towards(double forward_from_east_rad, double heading_sigma_rad) noexcept;
     /// Keeps the place of a point and the clock as states of their own, for what is observed of both now and later.
     void hold_place(const Eigen::Vector3d& lever_body_m) noexcept;
     /// Where x, y, z and clock then stand in the state; the first is -1 when nothing is held.
@@ -100,6 +102,7 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 40> {
     };
     Course course() const noexcept;
     void begin_inertial_if_fast() noexcept;
+    void begin_inertial(double forward_from_east_rad, double speed_mps, double heading_sigma_rad) noexcept;
     void fall_back() noexcept;
     Eigen::Vector3d lever_velocity_ecef_mps(const Eigen::Vector3d& lever_body_m) const noexcept;
 
