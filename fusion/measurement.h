@@ -247,17 +247,15 @@ struct SignalStrength {
     PeerBelief other{}; ///< of a transmitter that is a tag itself, whom a camera sees; the engine fills it in
 };
 
-using Observation =
-    std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint, VisualOdometry, GnssFix,
-                 GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation, Height, SatelliteRange, GnssBaseRange,
-                 Heading>;
+using Observation = std::variant<Range, RangeDifference, Arrival, ClockSync, PeerRange, ImuSample, FootPoint,
+                                 VisualOdometry, GnssFix, GnssRaw, WheelSpeed, Pressure, SignalStrength, GnssNavigation,
+                                 Height, SatelliteRange, GnssBaseRange, Heading>;
 
 /// Class names on the socket and in recordings, in the variant's order.
 inline constexpr std::array<std::string_view, std::variant_size_v<Observation>> observation_names{
-    "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",      "PEER_RANGE",     "IMU",
-    "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",        "WHEEL_SPEED",    "PRESSURE",
-    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE", "GNSS_BASE_RANGE",
-    "HEADING"};
+    "RANGE",           "RANGE_DIFFERENCE", "ARRIVAL",  "CLOCK_SYNC",      "PEER_RANGE",      "IMU",
+    "FOOT_POINT",      "VISUAL_ODOMETRY",  "GNSS_FIX", "GNSS_RAW",        "WHEEL_SPEED",     "PRESSURE",
+    "SIGNAL_STRENGTH", "GNSS_NAVIGATION",  "HEIGHT",   "SATELLITE_RANGE", "GNSS_BASE_RANGE", "HEADING"};
 
 struct Measurement {
     Timestamp time;             ///< when the sample was taken

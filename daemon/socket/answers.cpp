@@ -15,7 +15,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 10> source_kind_names{"anchor",  "camera", "satellite", "beacon", "imu",
-                                                            "vehicle", "input",  "tag",       "base",    "heading"};
+                                                             "vehicle", "input",  "tag",       "base",   "heading"};
 static_assert(source_kind_names.size() == static_cast<std::size_t>(SourceKind::heading) + 1);
 
 /// One line; names that are not UTF-8 are mended, never thrown over.

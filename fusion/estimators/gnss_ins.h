@@ -1,6 +1,7 @@
 // The vehicles' estimator: GNSS and an inertial sensor, loosely (fixes) or tightly (each satellite's range and rate, of
-// use from the first satellite on), with wheels, barometer, the heading of two antennas, standstill and UWB ranges beside them (paper 002; Groves
-// 2013, chapters 14 and 15). The state is in ECEF, the pose in the site's frame, which must have an origin.
+// use from the first satellite on), with wheels, barometer, the heading of two antennas, standstill and UWB ranges
+// beside them (paper 002; Groves 2013, chapters 14 and 15). The state is in ECEF, the pose in the site's frame, which
+// must have an origin.
 #pragma once
 
 #include "fusion/estimators/estimator.h"

@@ -12,8 +12,8 @@ namespace locus {
 /// Names of the wandering errors. Satellites are called by constellation and number, all else below zero.
 inline constexpr std::int32_t wheel_scale_error = -1, mounting_yaw_error = -2, mounting_pitch_error = -3,
                               pressure_offset = -4, pressure_weather = -5, heading_mounting_error = -6,
-                              heading_error = -7, fix_error = -10, constellation_clock = -20,
-                              held_place_state = -40, sensor_scale_error = -50, anchor_error = -1000;
+                              heading_error = -7, fix_error = -10, constellation_clock = -20, held_place_state = -40,
+                              sensor_scale_error = -50, anchor_error = -1000;
 
 inline constexpr double radian_per_degree = std::numbers::pi / 180;
 

@@ -1,5 +1,5 @@
-// The heading of two GNSS antennas: what a vehicle's track expects of it, and how it gives an attitude to a vehicle that
-// has not driven yet.
+// The heading of two GNSS antennas: what a vehicle's track expects of it, and how it gives an attitude to a vehicle
+// that has not driven yet.
 #include "fusion/estimators/gnss_ins.h"
 #include "fusion/estimators/gnss_ins_errors.h"
 
@@ -9,7 +9,8 @@
 namespace locus {
 namespace {
 
-/// A miscounted cycle of the carrier (19 cm) that still fits all satellites moves an antenna by a quarter of it or more.
+/// A miscounted cycle of the carrier (19 cm) that still fits all satellites moves an antenna by a quarter of it or
+/// more.
 constexpr double wrong_cycle_m = 0.05;
 /// From so far off the filter aligns; the heading itself, taken in right after, makes it as sure as it is.
 constexpr double unaligned_sigma_deg = 20;

@@ -196,10 +196,10 @@ inline constexpr std::array gnss_ins_options{
         "refuse_fix_height_m", "m", 0, 1000,
         "Fixes whose height is off by this from the barometer's are refused (paper 002: 6); 0: none."),
     option<&GnssInsSettings::use_heading>("use_heading", "Whether the heading of two GNSS antennas is used."),
-    option<&GnssInsSettings::heading_mounting_deg>(
-        "heading_mounting_deg", "deg", -360, 360,
-        "Where the second antenna lies, seen from the first: 0 ahead, 90 left, 180 behind. 0 too where the receiver has "
-        "been told already."),
+    option<&GnssInsSettings::heading_mounting_deg>("heading_mounting_deg", "deg", -360, 360,
+                                                   "Where the second antenna lies, seen from the first: 0 ahead, 90 "
+                                                   "left, 180 behind. 0 too where the receiver has "
+                                                   "been told already."),
     option<&GnssInsSettings::heading_mounting_sigma_deg>("heading_mounting_sigma_deg", "deg", 0, 45,
                                                          "How far that may be off; found on the way."),
     option<&GnssInsSettings::heading_baseline_m>(

@@ -55,7 +55,8 @@ class GnssInsTrack : public filter::WanderingState<gnss_ins_core, 40> {
     void move_by(const Vector& error) noexcept;
     /// Makes the attitude known at once: the forward axis along `course_ecef`, tilt as levelled.
     void begin_inertial(const Eigen::Vector3d& course_ecef, double heading_sigma_rad) noexcept;
-    /// The same with the forward axis that way on the level, counter-clockwise from east, if which way is down is known.
+    /// The same with the forward axis that way on the level, counter-clockwise from east, if which way is down is
+    /// known.
     bool begin_inertial_towards(double forward_from_east_rad, double heading_sigma_rad) noexcept;
     /// Keeps the place of a point and the clock as states of their own, for what is observed of both now and later.
     void hold_place(const Eigen::Vector3d& lever_body_m) noexcept;
