@@ -5,6 +5,7 @@
 #include "drivers/frame_decoder.h"
 #include "drivers/imu/epson_start.h"
 #include "drivers/wire/checksum.h"
+#include "fusion/units.h"
 
 #include <charconv>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "drivers/decoder.h"
-#include "drivers/units.h"
+#include "fusion/units.h"
 
 namespace locus::imu {
 

@@ -3,6 +3,7 @@
 
 #include "drivers/wire/checksum.h"
 #include "drivers/wire/frame_stream.h"
+#include "fusion/units.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Names, units and dimensions of the quantities of a described layout.
 #include "drivers/layout/quantity.h"
 
-#include "drivers/units.h"
+#include "fusion/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "fusion/estimators/gnss_ins_track.h"
+#include "fusion/units.h"
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 namespace locus {
 
@@ -14,8 +14,6 @@ inline constexpr std::int32_t wheel_scale_error = -1, mounting_yaw_error = -2, m
                               pressure_offset = -4, pressure_weather = -5, heading_mounting_error = -6,
                               heading_error = -7, fix_error = -10, constellation_clock = -20, held_place_state = -40,
                               sensor_scale_error = -50, anchor_error = -1000;
-
-inline constexpr double radian_per_degree = std::numbers::pi / 180;
 
 using GnssInsRow = GnssInsTrack::Vector;
 

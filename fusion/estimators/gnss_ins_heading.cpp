@@ -24,7 +24,7 @@ GnssInsScalar GnssInsObservations::heading(GnssInsTrack& track, const Heading& h
     const int mounting_at = track.wanderer(heading_mounting_error, {settings_.heading_mounting_sigma_deg, no_limit});
     const int reflections_at =
         track.wanderer(heading_error, {settings_.heading_error_sigma_deg, settings_.heading_error_time_s});
-    const double mounting_rad = settings_.heading_mounting_deg * radian_per_degree;
+    const double mounting_rad = settings_.heading_mounting_deg * rad_per_deg;
     const Eigen::Vector3d line =
         track.body_to_ecef() * Eigen::Vector3d(std::cos(mounting_rad), std::sin(mounting_rad), 0);
     const Eigen::Matrix3d enu = enu_to_ecef(geodetic(track.position_m()));
@@ -34,10 +34,10 @@ GnssInsScalar GnssInsObservations::heading(GnssInsTrack& track, const Heading& h
 
     GnssInsScalar scalar{blank_row(track)};
     for (int axis = 0; axis < 3; ++axis)
-        scalar.jacobian(GnssInsTrack::place(axis, 2)) = by_attitude(axis) / radian_per_degree;
+        scalar.jacobian(GnssInsTrack::place(axis, 2)) = by_attitude(axis) / rad_per_deg;
     scalar.jacobian(mounting_at) = scalar.jacobian(reflections_at) = 1;
     const double expected_deg =
-        std::atan2(east, north) / radian_per_degree + track.state(mounting_at) + track.state(reflections_at);
+        std::atan2(east, north) / rad_per_deg + track.state(mounting_at) + track.state(reflections_at);
     scalar.innovation = std::remainder(heading.heading_deg - expected_deg, 360.0);
     scalar.variance = own_square(stated_or(heading.sigma_deg, settings_.heading_sigma_deg));
     return scalar;
@@ -51,8 +51,7 @@ bool GnssIns::is_wrong_baseline(const Heading& heading) const noexcept {
 /// A standing vehicle has no course; two antennas tell all the same where it points.
 bool GnssIns::begin_inertial_towards(const Heading& heading) noexcept {
     const double forward_deg = heading.heading_deg + settings().heading_mounting_deg;
-    return track_.begin_inertial_towards((90 - forward_deg) * radian_per_degree,
-                                         unaligned_sigma_deg * radian_per_degree);
+    return track_.begin_inertial_towards((90 - forward_deg) * rad_per_deg, unaligned_sigma_deg * rad_per_deg);
 }
 
 Verdict GnssIns::take(const Heading& heading, Timestamp time) noexcept {

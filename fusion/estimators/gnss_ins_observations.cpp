@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace locus {
 namespace {
@@ -43,10 +42,10 @@ GnssInsMotionModel GnssInsObservations::motion_model() const noexcept {
     model.clock_phase_m_rts = s.clock_phase_m_rts;
     model.clock_drift_mps_rts = s.clock_drift_mps_rts;
     model.align_speed_mps = s.align_speed_mps;
-    model.align_heading_sigma_rad = s.align_heading_sigma_deg * radian_per_degree;
-    const Eigen::AngleAxisd roll(s.mounting_deg[0] * radian_per_degree, Eigen::Vector3d::UnitX());
-    const Eigen::AngleAxisd pitch(s.mounting_deg[1] * radian_per_degree, Eigen::Vector3d::UnitY());
-    const Eigen::AngleAxisd yaw(s.mounting_deg[2] * radian_per_degree, Eigen::Vector3d::UnitZ());
+    model.align_heading_sigma_rad = s.align_heading_sigma_deg * rad_per_deg;
+    const Eigen::AngleAxisd roll(s.mounting_deg[0] * rad_per_deg, Eigen::Vector3d::UnitX());
+    const Eigen::AngleAxisd pitch(s.mounting_deg[1] * rad_per_deg, Eigen::Vector3d::UnitY());
+    const Eigen::AngleAxisd yaw(s.mounting_deg[2] * rad_per_deg, Eigen::Vector3d::UnitZ());
     model.sensor_to_body = yaw * pitch * roll;
     model.antenna_body_m = antenna_body_m_;
     return model;

@@ -1,9 +1,9 @@
 // Satellites, one by one: which are taken, what becomes of their ranges and rates, when the receiver sets its clock,
 // and when they say that the filter is in the wrong place.
 #include "fusion/estimators/gnss_ins.h"
+#include "fusion/units.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace locus {
 namespace {
@@ -23,7 +23,7 @@ Exclusion GnssIns::refusal(const SatelliteRange& range) const noexcept {
     if (settings().coupling == "loose") return Exclusion::disabled;
     if (double{range.carrier_to_noise_dbhz} < settings().least_carrier_to_noise_dbhz) return Exclusion::too_weak;
     if (!started_) return Exclusion::none;
-    const double least = std::sin(settings().least_elevation_deg * std::numbers::pi / 180);
+    const double least = std::sin(settings().least_elevation_deg * rad_per_deg);
     return observations_->elevation_sine(track_, range) < least ? Exclusion::too_low : Exclusion::none;
 }
 

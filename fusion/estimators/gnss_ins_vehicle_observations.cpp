@@ -3,7 +3,6 @@
 #include "fusion/estimators/gnss_ins_observations.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace locus {
 namespace {
@@ -23,7 +22,7 @@ double standard_height_m(double pressure_pa) { return 44330.77 * (1 - std::pow(p
 // ---- the vehicle
 
 GnssInsObservations::Axle GnssInsObservations::axle(GnssInsTrack& track) const noexcept {
-    const filter::WanderModel off{settings_.mounting_sigma_deg * radian_per_degree, no_limit};
+    const filter::WanderModel off{settings_.mounting_sigma_deg * rad_per_deg, no_limit};
     Axle axle;
     axle.yaw_at = track.wanderer(mounting_yaw_error, off);
     axle.pitch_at = track.wanderer(mounting_pitch_error, off);

@@ -1,6 +1,7 @@
 #include "fusion/estimators/nav_track.h"
 
 #include "fusion/geometry/rotation.h"
+#include "fusion/units.h"
 
 #include <cmath>
 #include <utility>

@@ -30,6 +30,4 @@ inline Eigen::Quaterniond levelled(const Eigen::Vector3d& specific_force_body) {
     return Eigen::Quaterniond::FromTwoVectors(specific_force_body, Eigen::Vector3d::UnitZ());
 }
 
-inline constexpr double standard_gravity_mps2 = 9.80665;
-
 } // namespace locus

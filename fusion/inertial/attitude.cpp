@@ -2,6 +2,7 @@
 
 #include "fusion/filter/scalar_update.h"
 #include "fusion/geometry/rotation.h"
+#include "fusion/units.h"
 
 #include <algorithm>
 #include <cmath>

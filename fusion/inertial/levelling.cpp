@@ -1,6 +1,7 @@
 #include "fusion/inertial/levelling.h"
 
 #include "fusion/geometry/rotation.h"
+#include "fusion/units.h"
 
 #include <algorithm>
 #include <cmath>

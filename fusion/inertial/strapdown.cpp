@@ -1,6 +1,7 @@
 #include "fusion/inertial/strapdown.h"
 
 #include "fusion/geometry/rotation.h"
+#include "fusion/units.h"
 
 namespace locus::inertial {
 namespace {

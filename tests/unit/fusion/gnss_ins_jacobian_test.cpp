@@ -23,6 +23,7 @@ struct Bench {
         settings.gnss_antenna_body_m = {0.8, -0.3, 1.2};
         settings.tag_body_m = {-0.5, 0.4, 1.0};
         settings.axle_body_m = {-1.4, 0.1, -0.3};
+        settings.heading_mounting_deg = 70;
         site.anchors.push_back({"A0", address(7), {60, 40, 3}});
         for (int i = 0; i < 1200; ++i) drive.move();
     }
@@ -103,6 +104,8 @@ TEST(GnssInsJacobian, OfWheelsAndConstraints) {
     WheelSpeed wheel{address(1), 9};
     wheel.yaw_rate_radps = 0.1F;
     expect_matches(track, [&](auto& t) { return observations.wheel_speed(t, wheel); }, 1e-5, "wheel");
+    const Heading heading{address(1), 20};
+    expect_matches(track, [&](auto& t) { return observations.heading(t, heading); }, 2e-4, "heading");
     expect_matches(track, [&](auto& t) { return observations.yaw_rate(t, wheel); }, 1e-7, "yaw rate");
     for (const int axis : {1, 2})
         expect_matches(track, [&](auto& t) { return observations.slip(t, axis); }, 2e-5, "slip");

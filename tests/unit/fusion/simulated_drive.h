@@ -35,6 +35,8 @@ struct DriveSettings {
     double imu_hz = 100;
     double still_until_s = 4;
     double sensor_yaw_rad = 0; ///< how the sensor is turned in the car, which nobody tells the filter
+    double pace = 1;           ///< over that of a car
+    double antennas_deg = 0;   ///< where the second GNSS antenna lies: counter-clockwise from ahead
     std::size_t satellites = 9;
 };
 
@@ -172,6 +174,14 @@ class SimulatedDrive {
             Eigen::Vector3d(anchor.position_site_m[0], anchor.position_site_m[1], anchor.position_site_m[2]);
         return stamped(Range{anchor.address, address(1), arm.norm() + sigma_m * draw(), static_cast<float>(sigma_m)});
     }
+    Measurement heading(double sigma_deg) {
+        const double degree = std::numbers::pi / 180, antennas = settings_.antennas_deg * degree;
+        const inertial::EcefMotion now = motion();
+        const Eigen::Vector3d line = enu_to_ecef(geodetic(now.position_ecef_m)).transpose() *
+                                     (now.body_to_ecef * Eigen::Vector3d(std::cos(antennas), std::sin(antennas), 0));
+        const double told_deg = std::atan2(line.x(), line.y()) / degree + sigma_deg * draw();
+        return stamped(Heading{address(1), std::fmod(told_deg + 360, 360), static_cast<float>(sigma_deg), 1});
+    }
     template <class Sample>
     Measurement stamped(const Sample& sample) {
         return {timestamp_from_s(100 + t_), ++sequence_, 0, sample};
@@ -184,7 +194,7 @@ class SimulatedDrive {
     double driven_s(double t) const { return std::max(0.0, t - settings_.still_until_s); }
     double speed(double t) const {
         const double s = driven_s(t);
-        return (10 + 4 * std::sin(0.4 * s)) * (1 - std::exp(-s * s / 8));
+        return settings_.pace * (10 + 4 * std::sin(0.4 * s)) * (1 - std::exp(-s * s / 8));
     }
     double heading(double t) const { return 0.7 + 0.9 * std::sin(0.2 * driven_s(t)) * (1 - std::exp(-driven_s(t))); }
     Eigen::Vector3d direction(double t) const { return {std::cos(heading(t)), std::sin(heading(t)), 0}; }

@@ -5,6 +5,7 @@
 #include "fusion/geometry/vector.h"
 #include "fusion/measurement.h"
 #include "fusion/site.h"
+#include "fusion/units.h"
 
 #include <Eigen/Dense>
 

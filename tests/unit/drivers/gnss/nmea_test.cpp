@@ -140,6 +140,37 @@ TEST(Nmea, VelocityOfVtgOnlyWithoutRmc) {
     EXPECT_TRUE(std::isnan(north(decode(gga(1) + rmc(1, 0.01, not_told) + gga(2))))) << "no course at a standstill";
 }
 
+/// A vessel's receiver, REAL; then as THS.
+constexpr const char* real_hdt = "$GPHDT,232.39,T*0C\r\n";
+
+TEST(Nmea, HeadingsAreDatedByTheirReception) {
+    const std::string text = real_hdt + encode(Ths{51.25, 'A'});
+    const NmeaSettings settings{address(7)};
+    Collector sink;
+    make_nmea(&settings)->decode(test::bytes_packet(text, timestamp_from_ns(1'000'000), Duration{100}), sink);
+    const auto headings = sink.all<Heading>();
+    ASSERT_EQ(headings.size(), 2u);
+    EXPECT_EQ(headings[0].tag, address(7));
+    EXPECT_DOUBLE_EQ(headings[0].heading_deg, 232.39);
+    EXPECT_TRUE(std::isnan(headings[0].sigma_deg));
+    EXPECT_TRUE(std::isnan(headings[0].baseline_m));
+    EXPECT_DOUBLE_EQ(headings[1].heading_deg, 51.25);
+    EXPECT_EQ(to_ns(sink.items[0].time), 1'000'000 - 100 * static_cast<std::int64_t>(text.size()));
+}
+
+TEST(Nmea, HeadingsThatNobodyMeasuredAreNone) {
+    for (const char mode : {'E', 'M', 'S', 'V', '\0'}) {
+        const Collector sink = decode(encode(Ths{51.25, mode}));
+        EXPECT_EQ(sink.frames, 1) << mode;
+        EXPECT_TRUE(sink.items.empty() && sink.refusals.empty()) << mode;
+    }
+    EXPECT_TRUE(decode(encode(Hdt{})).items.empty());
+    EXPECT_TRUE(decode(encode(Hdt{})).refusals.empty());
+    EXPECT_EQ(decode(encode(Hdt{360.5})).refusals, std::vector{Refusal::out_of_range});
+    EXPECT_EQ(decode(encode(Hdt{-1})).refusals, std::vector{Refusal::out_of_range});
+    EXPECT_EQ(decode(framed("GNTHS,12x,A")).refusals, std::vector{Refusal::malformed});
+}
+
 TEST(Nmea, WithoutGstTheDilutionTellsTheSigma) {
     const auto sigmas = decode(gga(1) + gga(2), {address(7), true, 4}).all<GnssFix>();
     ASSERT_EQ(sigmas.size(), 2u);
@@ -287,13 +318,16 @@ TEST(Nmea, SentencesComeBack) {
         const Gst gst{any_time_us(), told_or_not(90), told_or_not(90), told_or_not(90)};
         const Zda zda{any_time_us(), *rc::gen::inRange(1u, 32u), *rc::gen::inRange(1u, 13u),
                       *rc::gen::inRange(0u, 9999u)};
-        const std::string lines[]{encode(vtg), encode(gst), encode(zda)};
+        const Ths ths{told_or_not(360), *rc::gen::element('A', 'V')};
+        const std::string lines[]{encode(vtg), encode(gst), encode(zda), encode(ths)};
         const auto sentence = [&](int i) {
             return sentence_of(std::string_view{lines[i]}.substr(0, lines[i].size() - 2));
         };
         const auto v = parse_vtg(sentence(0));
         const auto g = parse_gst(sentence(1));
         const auto z = parse_zda(sentence(2));
+        const auto t = parse_ths(sentence(3));
+        RC_ASSERT(t && same(t->heading_deg, ths.heading_deg) && t->mode == ths.mode);
         RC_ASSERT(v && same(v->course_deg, vtg.course_deg) && same(v->speed_knots, vtg.speed_knots) &&
                   v->mode == vtg.mode);
         RC_ASSERT(g && g->time_us == gst.time_us && same(g->sigma_latitude_m, gst.sigma_latitude_m));

@@ -1,6 +1,7 @@
 #include "drivers/imu/epson_g370.h"
 
 #include "drivers/imu/epson_start.h"
+#include "fusion/units.h"
 #include "tests/examples/decoder_example.h"
 #include "tests/unit/drivers/collector.h"
 

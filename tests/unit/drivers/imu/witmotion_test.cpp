@@ -1,5 +1,6 @@
 #include "drivers/imu/witmotion.h"
 
+#include "fusion/units.h"
 #include "tests/examples/decoder_example.h"
 #include "tests/unit/drivers/collector.h"
 

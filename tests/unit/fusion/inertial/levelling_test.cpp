@@ -1,6 +1,7 @@
 // What an inertial sensor tells before anything else is known: which way is up, and whether it lies still.
 #include "fusion/inertial/levelling.h"
 #include "fusion/inertial/rest.h"
+#include "fusion/units.h"
 #include "tests/unit/fusion/simulated_flight.h"
 #include "tests/unit/fusion/simulated_tag.h"
 

@@ -4,6 +4,7 @@
 
 #include "fusion/geometry/rotation.h"
 #include "fusion/measurement.h"
+#include "fusion/units.h"
 
 #include <Eigen/Dense>
 

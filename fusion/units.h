@@ -1,4 +1,4 @@
-// Constants of units that more than one family of devices needs.
+// Constants of units.
 #pragma once
 
 namespace locus {
