@@ -9,6 +9,17 @@ class Wrong(Exception):
     """A sentence for the person who called."""
 
 
+def only(folder, *patterns):
+    """The one file of a folder that the first of the patterns finds which finds any."""
+    for pattern in patterns:
+        found = sorted(folder.glob(pattern))
+        if len(found) > 1:
+            raise Wrong(f"{folder} has more than one {pattern}: {', '.join(path.name for path in found)}")
+        if found:
+            return found[0]
+    raise Wrong(f"{folder} has no {' or '.join(patterns)}")
+
+
 def rows(path, delimiter=",", columns=None):
     """Numbers of a table under one line of titles; of all columns, or of those whose titles are given, in their order."""
     try:
