@@ -84,7 +84,7 @@ class Ubx : public FrameDecoder<ubx::Format> {
     void give(const RelativePosition& relative, const Frame& frame, MeasurementSink& sink) {
         if (!tells_heading(relative)) return;
         const Heading heading = heading_of(relative, tag_);
-        if (!possible(heading)) return sink.refuse(Refusal::out_of_range);
+        if (!ubx::possible(heading)) return sink.refuse(Refusal::out_of_range);
         sink.accept(time_of(relative, frame), heading);
     }
 
